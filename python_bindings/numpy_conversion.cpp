@@ -1,0 +1,87 @@
+#include "numpy_conversion.h"
+
+#include <memory>
+#include <utility>
+
+#include "argument_check.h"
+
+namespace py = pybind11;
+
+namespace skinglow::numpy {
+namespace {
+
+/// Moves the values to the heap and gives numpy a capsule that frees them with the last array that looks at
+/// them.
+template <typename Value>
+std::pair<Value*, py::capsule> keep(std::vector<Value>&& values) {
+    auto kept = std::make_unique<std::vector<Value>>(std::move(values));
+    Value* data = kept->data();
+    py::capsule owner(kept.get(), [](void* pointer) { delete static_cast<std::vector<Value>*>(pointer); });
+    kept.release();  // NOLINT(bugprone-unused-return-value): the capsule owns it from here
+    return {data, owner};
+}
+
+}  // namespace
+
+std::string shape_text(const py::array& array) {
+    std::string text = "(";
+    for (py::ssize_t i = 0; i < array.ndim(); ++i) {
+        text += std::to_string(array.shape(i)) + (array.ndim() == 1 ? "," : i + 1 < array.ndim() ? ", " : "");
+    }
+    return text + ")";
+}
+
+Array to_array(py::handle value, std::string_view name) {
+    Array array = Array::ensure(value);
+    if (!array) {
+        PyErr_Clear();
+        refuse_argument(name, py::repr(value).cast<std::string>(),
+                        "numbers (anything numpy reads as float64)");
+    }
+    return array;
+}
+
+glm::dvec3 to_vec3(py::handle value, std::string_view name) {
+    const Array array = to_array(value, name);
+    if (array.ndim() != 1 || array.shape(0) != 3) {
+        refuse_argument(name, "of shape " + shape_text(array), "shape (3,)");
+    }
+    return {array.at(0), array.at(1), array.at(2)};
+}
+
+std::vector<glm::dvec3> to_vec3s(py::handle value, std::string_view name) {
+    const Array array = to_array(value, name);
+    if (array.ndim() != 2 || array.shape(1) != 3) {
+        refuse_argument(name, "of shape " + shape_text(array), "shape (n, 3)");
+    }
+    const auto* rows = reinterpret_cast<const glm::dvec3*>(array.data());
+    return {rows, rows + array.shape(0)};
+}
+
+py::array from_vec3s(std::vector<glm::dvec3>&& rows) {
+    const auto count = static_cast<py::ssize_t>(rows.size());
+    auto [data, owner] = keep(std::move(rows));
+    return py::array_t<double>({count, py::ssize_t{3}}, reinterpret_cast<const double*>(data), owner);
+}
+
+py::array from_vec3(const glm::dvec3& value) {
+    return py::array_t<double>(3, &value.x);
+}
+
+py::array from_doubles(std::vector<double>&& values) {
+    const auto count = static_cast<py::ssize_t>(values.size());
+    auto [data, owner] = keep(std::move(values));
+    return py::array_t<double>({count}, data, owner);
+}
+
+py::array view_of_matrices(std::span<const glm::dmat3> matrices, py::handle owner) {
+    constexpr py::ssize_t number = sizeof(double);
+    // GLM keeps a matrix by columns: the strides turn it into rows without a copy.
+    py::array_t<double> view({static_cast<py::ssize_t>(matrices.size()), py::ssize_t{3}, py::ssize_t{3}},
+                             {9 * number, number, 3 * number},
+                             reinterpret_cast<const double*>(matrices.data()), owner);
+    py::detail::array_proxy(view.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+    return view;
+}
+
+}  // namespace skinglow::numpy

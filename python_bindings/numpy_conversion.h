@@ -1,0 +1,38 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// From numpy to the core's types and back. Shapes are checked here, values by the core.
+namespace skinglow::numpy {
+
+using Array = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+
+/// "(2, 3)", as numpy writes it.
+std::string shape_text(const pybind11::array& array);
+
+/// Any array-like of numbers as contiguous doubles; throws ValueError naming the argument otherwise.
+Array to_array(pybind11::handle value, std::string_view name);
+
+/// Three numbers.
+glm::dvec3 to_vec3(pybind11::handle value, std::string_view name);
+
+/// (n, 3).
+std::vector<glm::dvec3> to_vec3s(pybind11::handle value, std::string_view name);
+
+/// Hands the vector's own memory to numpy, as (n, 3), without a copy.
+pybind11::array from_vec3s(std::vector<glm::dvec3>&& rows);
+pybind11::array from_vec3(const glm::dvec3& value);
+pybind11::array from_doubles(std::vector<double>&& values);
+
+/// A read-only (n, 3, 3) view, [entry, row, column], of matrices that `owner` keeps alive.
+pybind11::array view_of_matrices(std::span<const glm::dmat3> matrices, pybind11::handle owner);
+
+}  // namespace skinglow::numpy

@@ -1,0 +1,54 @@
+# Sourced by the scripts beside it: where things are, and how to install only what is missing.
+set -euo pipefail
+project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+envs=$project/build/envs
+cd "$project"
+export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_ROOT_USER_ACTION=ignore
+
+say() { printf '[%s] %s\n' "$(date +%H:%M:%S)" "$*"; }
+fail() { printf 'skinglow: %s\n' "$*" >&2; exit 1; }
+
+# Debian packages, only those that are not there yet.
+install_packages() {
+    command -v dpkg-query >/dev/null || fail "this set-up is for Debian 12; elsewhere install by hand: $*"
+    local missing=() name
+    for name in "$@"; do
+        [ "$(dpkg-query -W -f '${db:Status-Status}' "$name" 2>/dev/null)" = installed ] || missing+=("$name")
+    done
+    [ ${#missing[@]} -gt 0 ] || return 0
+    say "installing ${#missing[@]} Debian packages: ${missing[*]}"
+    local as_root=()
+    [ "$(id -u)" = 0 ] || as_root=(sudo)
+    mkdir -p "$project/build"
+    if ! { "${as_root[@]}" apt-get update &&
+        "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${missing[@]}"
+    } >"$project/build/apt.log" 2>&1; then
+        tail -n 15 "$project/build/apt.log" >&2
+        fail "apt-get could not install these packages; the whole log: build/apt.log"
+    fi
+}
+
+# find_python 3.11: an interpreter of that version that can make virtual environments, from PATH or pyenv.
+find_python() {
+    local candidate
+    for candidate in "python$1" python3 /usr/bin/python3 "${PYENV_ROOT:-$HOME/.pyenv}"/versions/"$1".*/bin/python3; do
+        if "$candidate" -c "import sys, venv, ensurepip; sys.exit('%d.%d' % sys.version_info[:2] != '$1')" 2>/dev/null; then
+            command -v "$candidate"
+            return
+        fi
+    done
+    return 1
+}
+
+# make_environment NAME PYTHON REQUIREMENT...: a virtual environment of that name, made again when its list changes.
+make_environment() {
+    local where=$envs/$1 python=$2
+    shift 2
+    local want="$python $*"
+    if [ "$(cat "$where/requirements" 2>/dev/null)" = "$want" ]; then return; fi
+    say "making the Python environment $(basename "$where"): $*"
+    rm -rf "$where"
+    "$python" -m venv "$where"
+    "$where/bin/pip" install --quiet "$@" || fail "pip could not install: $*"
+    printf '%s' "$want" >"$where/requirements"
+}
