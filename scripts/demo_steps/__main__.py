@@ -1,0 +1,79 @@
+"""The demo: a real head lit from behind, in Blender and POV-Ray. scripts/demo sets up first."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from pathlib import Path
+
+import blender_host
+import comparison
+import figures
+import head_source
+import light_rigs
+import page
+from progress import DemoError, Progress
+
+
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="scripts/demo",
+        description="Lights a head from behind and shows, in Blender and POV-Ray, how it glows in the lamps' colour.",
+        epilog="example: scripts/demo ../shared/data/heads/LeePerrySmith.glb --unit 50.35",
+    )
+    parser.add_argument("mesh", nargs="?", help="a GLB, OBJ or PLY file (default: MakeHuman's CC0 base mesh)")
+    parser.add_argument("--mesh", dest="named_mesh", metavar="FILE|suzanne", help="the same; `suzanne` is Blender's")
+    parser.add_argument("--unit", type=float, metavar="MM", help="millimetres per unit of the file")
+    parser.add_argument("--rig", type=Path, metavar="FILE", help="lamps in place of Blender's rim.sl: .json or .sl")
+    parser.add_argument("--colour-map", type=Path, metavar="FILE", help="base colour of the skin, by the mesh's UVs")
+    parser.add_argument("--normal-map", type=Path, metavar="FILE", help="tangent-space normals, by the mesh's UVs")
+    parser.add_argument(
+        "--blender",
+        metavar="PROGRAM",
+        help="a Blender program or a Python with bpy, for the default's",
+    )
+    parser.add_argument("--size", type=int, default=640, metavar="PIXELS", help="width and height (default 640)")
+    parser.add_argument("--samples", type=int, default=64, help="Cycles samples a pixel (default 64)")
+    parser.add_argument("--out", type=Path, default=Path("out"), help="where everything goes (default out/)")
+    return parser.parse_args()
+
+
+def main() -> None:
+    options = arguments()
+    started = time.monotonic()
+    out: Path = options.out.resolve()
+    out.mkdir(parents=True, exist_ok=True)
+    progress = Progress(out / "demo.log")
+
+    head = head_source.find(options.mesh or options.named_mesh, options.unit, progress)
+    host = blender_host.Host.find(options.blender)
+    rigs = light_rigs.gather(options.rig, host, progress)
+    job = {
+        **head.job(),
+        "rigs": rigs,
+        "colour_map": str(options.colour_map.resolve()) if options.colour_map else None,
+        "normal_map": str(options.normal_map.resolve()) if options.normal_map else None,
+        "camera_azimuth_degrees": light_rigs.CAMERA_AZIMUTH_DEGREES,
+        "package": str(blender_host.PACKAGE) if host.is_full_program else None,
+        "size": options.size,
+        "samples": options.samples,
+        "out": str(out),
+    }
+    numbers = host.run("blender_job.py", job, progress)
+    numbers["head"] = {"name": head.name, "licence": head.licence, "unit_mm": head.unit_mm}
+    numbers["comparison"] = comparison.render_and_compare(out, options.size, progress)
+    progress.say("drawing the figures")
+    figures.draw_all(out, numbers)
+    numbers["seconds"] = round(time.monotonic() - started, 1)
+    (out / "numbers.json").write_text(json.dumps(numbers, indent=1))
+    page.write(out, numbers)
+    progress.say(f"done in {numbers['seconds']:.0f} s. Look at {out / 'index.html'}")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except DemoError as error:
+        sys.exit(f"skinglow demo: {error}")

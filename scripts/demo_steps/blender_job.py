@@ -1,0 +1,134 @@
+"""Runs inside Blender: makes the head glow, renders it, writes the POV-Ray scene, reports to blender_host."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parents[1] / "blender_addon")]
+JOB: dict[str, Any] = json.loads(Path(sys.argv[-1]).read_text())
+if JOB["package"]:
+    sys.path.append(JOB["package"])  # last: a full Blender has a numpy of its own
+
+import bpy  # noqa: E402
+
+import blender_scene as stage  # noqa: E402  isort: skip
+import numpy as np  # noqa: E402
+import skinglow_blender as sb  # noqa: E402
+
+OUT = Path(JOB["out"])
+MODES = ("existing", "paper")
+# Lookups are dark at an ear's 3 to 8 mm; shaders that use them scale them up by hand, and so does the demo, by one
+# factor for both modes, stated in the page.
+STRENGTH = 20.0
+ORANGE, BLUE = (1.0, 112 / 255, 69 / 255), (15 / 255, 64 / 255, 1.0)  # two lamps of Table 1
+
+
+class Steps:
+    """Says what is done and how far it is, in lines that blender_host understands."""
+
+    def __init__(self, of: int) -> None:
+        self.done, self.of = 0, of
+
+    def __call__(self, text: str) -> None:
+        self.done += 1
+        print("@skinglow " + json.dumps({"step": text, "done": self.done, "of": self.of}), flush=True)
+
+
+class Studio:
+    """The scene and what has been made of it."""
+
+    def __init__(self) -> None:
+        self.scene = stage.empty_scene()
+        self.scene.render.resolution_x = self.scene.render.resolution_y = JOB["size"]
+        self.scene.cycles.samples = JOB["samples"]
+        self.head = stage.load_head(JOB)
+        stage.skin_surface(self.head, JOB["colour_map"], JOB["normal_map"])
+        azimuth = math.radians(JOB["camera_azimuth_degrees"])
+        views = stage.views_of(self.head)
+        self.cameras = {v: stage.aim_camera(self.scene, at, height, azimuth) for v, (at, height) in views.items()}
+        self.centre = stage.centre_of(self.head)
+        self.tables: dict[str, np.ndarray] = {}
+        self.lights: dict[str, Any] = {}
+
+    def render(self, name: str, view: str) -> None:
+        self.scene.camera = self.cameras[view]
+        self.scene.render.filepath = str(OUT / name)
+        bpy.ops.render.render(write_still=True)
+
+    def show(self, name: str) -> None:
+        """Both modes under the lamps that are there: the head, the ear, and the table that they show."""
+        for mode in MODES:
+            sb.make_skin(self.head, mode=mode)
+            self.tables[f"{name}_{mode}"] = sb.lut(self.head, bpy.context.evaluated_depsgraph_get())
+            for view in self.cameras:
+                self.render(f"{name}_{mode}{view}.png", view)
+        self.lights[name] = sb.light_report(self.head, bpy.context.evaluated_depsgraph_get())
+
+    def render_light_through(self) -> None:
+        """The glow alone, as linear EXR: no surface, one box per pixel as in POV-Ray, alpha for the outline."""
+        scene, settings = self.scene, self.scene.render.image_settings
+        sb.show_light_through(self.head, True)
+        for eye in [o for o in scene.objects if o.type == "MESH" and o != self.head]:
+            eye.hide_render = True
+        kept = scene.cycles.pixel_filter_type, scene.cycles.samples
+        scene.cycles.pixel_filter_type, scene.cycles.samples = "BOX", 64
+        scene.render.film_transparent = True
+        settings.file_format, settings.color_depth, settings.color_mode = "OPEN_EXR", "32", "RGBA"
+        self.render("light_through_blender.exr", "")
+        settings.file_format, settings.color_depth, settings.color_mode = "PNG", "8", "RGB"
+        bpy.data.images["Render Result"].save_render(str(OUT / "light_through_blender.png"))
+        scene.render.film_transparent = False
+        scene.cycles.pixel_filter_type, scene.cycles.samples = kept
+        for thing in scene.objects:
+            thing.hide_render = False
+        sb.show_light_through(self.head, False)
+
+
+def main() -> dict[str, Any]:
+    started = time.monotonic()
+    step = Steps(of=8)
+    step("loading the head")
+    studio = Studio()
+    stage.place_rig(studio.scene, JOB["rigs"]["table1"], studio.centre)
+    step(f"measuring the thickness of the skin at {len(studio.head.data.vertices):,} points")
+    state = sb.make_skin(studio.head, mode="paper", strength=STRENGTH)
+    bpy.ops.wm.save_as_mainfile(filepath=str(OUT / "head.blend"))
+
+    step("Cycles: Table 1's lamps")
+    studio.show("table1")
+    step("Cycles: the light coming through, alone")
+    studio.render_light_through()
+    step("writing the scene for POV-Ray")
+    sb.export_povray(bpy.context.evaluated_depsgraph_get(), str(OUT / "povray"))
+
+    for name in ("Light1", "Light3"):
+        bpy.data.objects.remove(bpy.data.objects[name])
+    for colour, values in (("orange", ORANGE), ("blue", BLUE)):
+        step(f"Cycles: one lamp behind the ear, {colour}")
+        bpy.data.objects["Light2"].data.color = values
+        studio.show(colour)
+    step("Cycles: the rim lights")
+    stage.place_rig(studio.scene, JOB["rigs"]["rim"], studio.centre)
+    studio.show("rim")
+    np.savez(OUT / "tables.npz", **studio.tables)
+    return {
+        "blender": JOB["host"],
+        "lights": studio.lights,
+        "strength": STRENGTH,
+        "max_thickness_mm": state.max_thickness_mm,
+        "vertices": len(studio.head.data.vertices),
+        "blender_seconds": round(time.monotonic() - started, 1),
+    }
+
+
+result = main()
+print("@skinglow " + json.dumps({"result": result}), flush=True)
+sys.stdout.flush()
+os._exit(0)  # the 4.5 wheel would wait for ever in a destructor

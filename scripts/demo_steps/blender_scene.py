@@ -1,0 +1,202 @@
+"""Runs inside Blender: a head at real size, a camera on its ear, lamps from a rig. Scene units are metres."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import bmesh
+
+# isort: off  (importing bpy is what makes the other two importable in the wheels)
+import bpy
+from mathutils import Matrix, Vector
+
+# isort: on
+
+Rig = dict[str, Any]
+HEAD_HEIGHT_M = 0.26
+
+
+def empty_scene() -> bpy.types.Scene:
+    """A scene with nothing in it, rendered by Cycles on the CPU, shown by the screen's own curve."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    scene.cycles.device = "CPU"
+    scene.cycles.use_denoising = False  # Debian's Blender has no denoiser and would cancel the render
+    scene.view_settings.view_transform = "Standard"
+    scene.world = bpy.data.worlds.new("dim room")
+    if scene.world.node_tree is None:
+        scene.world.use_nodes = True
+    background = scene.world.node_tree.nodes["Background"]
+    background.inputs["Color"].default_value = (0.010, 0.011, 0.013, 1.0)
+    return scene
+
+
+def load_head(job: dict[str, Any]) -> bpy.types.Object:
+    """The mesh of the job as one object, in metres, UV seams welded, smooth, fine enough for a silhouette."""
+    eyes: list[bpy.types.Object] = []
+    if job["mesh"] == "suzanne":
+        bpy.ops.mesh.primitive_monkey_add()
+        objects = [bpy.context.object]
+    else:
+        found = _import(Path(job["mesh"]), split_groups=job["group"] is not None)
+        objects = [o for o in found if job["group"] is None or o.name == job["group"]]
+        eyes = [o for o in found if o.name in job["eyes"]]
+        if not objects:
+            raise SystemExit(f"{job['mesh']}: holds no mesh" + (f' "{job["group"]}"' if job["group"] else ""))
+        for thing in [o for o in bpy.data.objects if o not in objects + eyes]:
+            bpy.data.objects.remove(thing)
+    for thing in eyes:
+        _at_real_size(thing, job["unit_mm"])
+        _subdivide(thing, 2)
+        thing.data.materials.clear()
+        thing.data.materials.append(_eye_material())
+    head = _joined(objects)
+    _at_real_size(head, job["unit_mm"])
+    _clean(head.data, job["cut_below_m"])
+    levels = 2 if len(head.data.polygons) < 8000 else 1 if len(head.data.polygons) < 30000 else 0
+    if levels:
+        _subdivide(head, levels)
+    head.data.polygons.foreach_set("use_smooth", [True] * len(head.data.polygons))
+    head.name = "head"
+    return head
+
+
+def _at_real_size(thing: bpy.types.Object, unit_mm: float) -> None:
+    """Into the vertices with it: metres, and no transform left on the object."""
+    thing.data.transform(Matrix.Scale(unit_mm / 1000.0, 4) @ thing.matrix_world)
+    thing.matrix_world = Matrix()
+
+
+def _eye_material() -> bpy.types.Material:
+    material = bpy.data.materials.get("eye") or bpy.data.materials.new("eye")
+    if material.node_tree is None:
+        material.use_nodes = True
+    surface = material.node_tree.nodes["Principled BSDF"]
+    surface.inputs["Base Color"].default_value = (0.55, 0.52, 0.50, 1.0)
+    surface.inputs["Roughness"].default_value = 0.15
+    return material
+
+
+def _import(path: Path, split_groups: bool) -> list[bpy.types.Object]:
+    """All meshes of a file; it may bring scenes of its own, so every mesh counts, wherever it was put."""
+    suffix = path.suffix.lower()
+    if suffix in (".glb", ".gltf"):
+        bpy.ops.import_scene.gltf(filepath=str(path))
+    elif suffix == ".obj":
+        bpy.ops.wm.obj_import(filepath=str(path), use_split_groups=split_groups)
+    elif suffix == ".ply" and hasattr(bpy.ops.wm, "ply_import"):
+        try:
+            bpy.ops.wm.ply_import(filepath=str(path))
+        except AttributeError:  # before Blender 3.6
+            bpy.ops.import_mesh.ply(filepath=str(path))
+    else:
+        raise SystemExit(f"{path}: not a mesh this demo reads; allowed: .glb, .gltf, .obj, .ply")
+    return [o for o in bpy.data.objects if o.type == "MESH"]
+
+
+def _joined(objects: list[bpy.types.Object]) -> bpy.types.Object:
+    head = objects[0]
+    for thing in objects:
+        if thing.name not in bpy.context.scene.collection.objects:
+            bpy.context.scene.collection.objects.link(thing)
+    if len(objects) > 1:
+        with bpy.context.temp_override(active_object=head, selected_editable_objects=objects):
+            bpy.ops.object.join()
+    return head
+
+
+def _clean(mesh: bpy.types.Mesh, cut_below_m: float | None) -> None:
+    work = bmesh.new()
+    work.from_mesh(mesh)
+    if cut_below_m is not None:
+        below = [v for v in work.verts if v.co.z < cut_below_m]
+        bmesh.ops.delete(work, geom=below, context="VERTS")
+    bmesh.ops.remove_doubles(work, verts=work.verts, dist=1e-6)
+    bmesh.ops.delete(work, geom=[v for v in work.verts if not v.link_faces], context="VERTS")
+    work.to_mesh(mesh)
+    work.free()
+
+
+def _subdivide(head: bpy.types.Object, levels: int) -> None:
+    modifier = head.modifiers.new("smooth", "SUBSURF")
+    modifier.levels = modifier.render_levels = levels
+    fine = bpy.data.meshes.new_from_object(head.evaluated_get(bpy.context.evaluated_depsgraph_get()))
+    head.modifiers.clear()
+    head.data = fine
+
+
+def skin_surface(head: bpy.types.Object, colour_map: str | None, normal_map: str | None) -> None:
+    """The surface that the glow is added to: the maps given, else one skin colour."""
+    material = bpy.data.materials.new("face")
+    if material.node_tree is None:
+        material.use_nodes = True
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    surface = nodes["Principled BSDF"]
+    surface.inputs["Base Color"].default_value = (0.50, 0.27, 0.19, 1.0)
+    surface.inputs["Roughness"].default_value = 0.5
+    if colour_map:
+        picture = nodes.new("ShaderNodeTexImage")
+        picture.image = bpy.data.images.load(colour_map)
+        links.new(picture.outputs["Color"], surface.inputs["Base Color"])
+    if normal_map:
+        picture = nodes.new("ShaderNodeTexImage")
+        picture.image = bpy.data.images.load(normal_map)
+        picture.image.colorspace_settings.is_data = True
+        bump = nodes.new("ShaderNodeNormalMap")
+        links.new(picture.outputs["Color"], bump.inputs["Color"])
+        links.new(bump.outputs["Normal"], surface.inputs["Normal"])
+    head.data.materials.clear()
+    head.data.materials.append(material)
+
+
+def centre_of(head: bpy.types.Object) -> Vector:
+    """Centre of the bounding box: the add-on's default reference point, and the origin of a rig."""
+    corners = [Vector(c) for c in head.bound_box]
+    return sum(corners, Vector()) / 8.0
+
+
+def aim_camera(scene: bpy.types.Scene, target: Vector, height_m: float, azimuth: float) -> bpy.types.Object:
+    """A portrait lens on `target` that sees `height_m` around it, from `azimuth` off the front (-Y) towards +X."""
+    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    camera.data.lens, camera.data.sensor_width = 85.0, 36.0
+    away = Vector((math.sin(azimuth), -math.cos(azimuth), 0.08)).normalized()
+    distance = height_m * camera.data.lens / camera.data.sensor_width
+    camera.location = target + away * distance
+    camera.rotation_euler = (-away).to_track_quat("-Z", "Y").to_euler()
+    camera.data.clip_start, camera.data.clip_end = distance * 0.01, distance * 10
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    bpy.context.view_layer.update()
+    return camera
+
+
+def views_of(head: bpy.types.Object) -> dict[str, tuple[Vector, float]]:
+    """What to look at, as (point, height to see): the head and, of its +X side, the ear."""
+    points = [v.co for v in head.data.vertices]
+    low, high = (Vector([pick(p[i] for p in points) for i in range(3)]) for pick in (min, max))
+    height = min(high.z - low.z, HEAD_HEIGHT_M)  # a scan may go down to the shoulders
+    upper = [p for p in points if p.z > high.z - height]
+    ear = max((p for p in upper if p.z < high.z - 0.25 * height), key=lambda p: p.x)
+    middle = Vector((sum(p.x for p in upper) / len(upper), ear.y, high.z - 0.5 * height))
+    width = max(p.x for p in upper) - min(p.x for p in upper)
+    return {"": (middle, 1.12 * max(height, 0.9 * width)), "_ear": (ear.copy(), 0.42 * height)}
+
+
+def place_rig(scene: bpy.types.Scene, rig: Rig, centre: Vector) -> list[bpy.types.Object]:
+    """The lamps of a rig file, its origin on `centre`; lamps of an earlier rig are removed."""
+    for old in [o for o in bpy.data.objects if o.type == "LIGHT"]:
+        bpy.data.objects.remove(old)
+    lamps = []
+    for entry in rig["lights"]:
+        data = bpy.data.lights.new(entry["name"], entry["kind"])
+        data.color, data.energy = entry["color"], entry["power"]
+        lamp = bpy.data.objects.new(entry["name"], data)
+        lamp.location = centre + Vector(entry.get("position", (0, 0, 0)))
+        lamp.rotation_euler = Vector(entry.get("direction", (0, 0, -1))).to_track_quat("-Z", "Y").to_euler()
+        scene.collection.objects.link(lamp)
+        lamps.append(lamp)
+    bpy.context.view_layer.update()
+    return lamps

@@ -1,0 +1,106 @@
+"""The paper's figures, made again: lookup images, existing against proposed, a lamp changing colour."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+BACKGROUND, INK = "#16181c", "#d8dade"
+SHOWN_MM = 8.0
+plt.rcParams.update(
+    {
+        "figure.facecolor": BACKGROUND,
+        "axes.facecolor": BACKGROUND,
+        "savefig.facecolor": BACKGROUND,
+        "text.color": INK,
+        "axes.labelcolor": INK,
+        "xtick.color": INK,
+        "ytick.color": INK,
+        "axes.edgecolor": INK,
+        "font.size": 10,
+    }
+)
+
+
+def draw_all(out: Path, numbers: dict[str, Any]) -> None:
+    with np.load(out / "tables.npz") as file:
+        tables = {name: file[name] for name in file.files}
+    lookup_images(out / "lookups.png", tables, numbers)
+    pictures(out / "existing_and_proposed.png", out, [("table1", "Table 1's lamps")])
+    pictures(out / "colour_change.png", out, [("orange", "an orange lamp"), ("blue", "the lamp turned blue")])
+    pictures(out / "rim.png", out, [("rim", "rim lights")])
+    hosts(out / "blender_and_povray.png", out, numbers)
+
+
+def to_screen(linear: np.ndarray) -> np.ndarray:
+    """Linear Rec.709 to sRGB's curve (IEC 61966-2-1), clipped to what a screen shows."""
+    light = np.clip(linear, 0.0, 1.0)
+    return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
+
+
+def lookup_images(path: Path, tables: dict[str, np.ndarray], numbers: dict[str, Any]) -> None:
+    """Each table as the strip it is (its strength applied) and as curves, over thickness."""
+    names = {
+        "table1_existing": "existing, whatever the lamps",
+        "table1_paper": "Table 1's lamps",
+        "orange_paper": "an orange lamp",
+        "blue_paper": "a blue lamp",
+        "rim_paper": "rim lights",
+    }
+    figure, axes = plt.subplots(2, len(names), figsize=(14, 4.2), height_ratios=(1, 3), sharex=True)
+    limit = numbers["max_thickness_mm"]
+    for column, (name, title) in enumerate(names.items()):
+        table = tables[name] * numbers["strength"]
+        strip, curves = axes[:, column]
+        strip.imshow(to_screen(table)[None], aspect="auto", extent=(0, limit, 0, 1), interpolation="bilinear")
+        strip.set_yticks([])
+        strip.set_title(title)
+        thickness = np.linspace(0, limit, len(table))
+        for channel, colour in enumerate(("#ff6b5e", "#5fd36a", "#6aa2ff")):
+            curves.semilogy(thickness, np.maximum(table[:, channel], 1e-12), color=colour, label="RGB"[channel])
+        curves.set_xlim(0, SHOWN_MM)
+        curves.set_ylim(1e-4, 1e2)
+        curves.set_xlabel("thickness, mm")
+    axes[1, 0].set_ylabel("light coming through, linear")
+    axes[1, 0].legend()
+    save(figure, path)
+
+
+def pictures(path: Path, out: Path, rows: list[tuple[str, str]]) -> None:
+    """For each set of lamps a row: existing and proposed, the whole head and the ear."""
+    columns = [("existing", ""), ("existing", "_ear"), ("paper", ""), ("paper", "_ear")]
+    figure, axes = plt.subplots(len(rows), 4, figsize=(16, 4.4 * len(rows)), squeeze=False)
+    for row, (name, title) in zip(axes, rows, strict=True):
+        for axis, (mode, view) in zip(row, columns, strict=True):
+            axis.imshow(plt.imread(out / f"{name}_{mode}{view}.png"))
+            axis.axis("off")
+            if not view:
+                axis.set_title(f"{'existing' if mode == 'existing' else 'proposed'}: {title}", loc="left")
+    save(figure, path)
+
+
+def hosts(path: Path, out: Path, numbers: dict[str, Any]) -> None:
+    compared = numbers["comparison"]
+    titles = {
+        "light_through_blender.png": f"Blender {numbers['blender']}",
+        "light_through_povray.png": "POV-Ray",
+        "difference.png": f"difference: RMS {compared['rms']:.1e}, white is {compared['heat_map_white']:.1e}",
+    }
+    figure, axes = plt.subplots(1, 3, figsize=(15, 5.3))
+    for axis, (name, title) in zip(axes, titles.items(), strict=True):
+        axis.imshow(plt.imread(out / name))
+        axis.set_title(title)
+        axis.axis("off")
+    save(figure, path)
+
+
+def save(figure: plt.Figure, path: Path) -> None:
+    figure.tight_layout()
+    figure.savefig(path, dpi=110)
+    plt.close(figure)

@@ -1,0 +1,60 @@
+# Sourced by scripts/package: a static Embree for the portable wheels, in build/portable/embree.
+# Debian's own needs a newer C library; and a shared one would meet the one that Blender brings.
+embree_version=3.13.5
+embree_source="embree_$embree_version+dfsg.orig.tar.xz"
+embree_sha256=1b7c5b6144230ad81b92ece884a2017fbbb433bf5416a6fca9257e0109501c63
+
+# Triangles and single rays are all that skinglow asks for, by the one instruction set of all machines that Blender runs on.
+embree_options=(-DEMBREE_STATIC_LIB=ON -DEMBREE_TASKING_SYSTEM=INTERNAL -DEMBREE_IGNORE_CMAKE_CXX_FLAGS=OFF -DEMBREE_MAX_ISA=NONE
+    -DEMBREE_ISA_SSE42=ON)
+for name in ISA_{SSE2,AVX,AVX2,AVX512} GEOMETRY_{QUAD,CURVE,SUBDIVISION,USER,INSTANCE,GRID,POINT} \
+    RAY_PACKETS FILTER_FUNCTION STACK_PROTECTOR ISPC_SUPPORT TUTORIALS; do
+    embree_options+=("-DEMBREE_$name=OFF")
+done
+embree_unused=(scene_user_geometry scene_instance scene_quad_mesh scene_curves scene_line_segments scene_grid_mesh scene_points
+    rtcore_builder motion_derivative bezier_curve bspline_curve catmullrom_curve instance_intersector bvh_builder_hair
+    bvh_builder_hair_mb 'curve_intersector_virtual_[a-z0-9_]*')
+
+# Debian's source package, from this machine's mirror, else from Debian's own; a wrong digest is an error.
+fetch_embree() {
+    local mirror
+    mirror=$(apt-get download --print-uris libembree-dev 2>/dev/null | sed -n "s/^'\(.*\/\)[^/]*' .*/\1/p")
+    for mirror in "$mirror" http://deb.debian.org/debian/pool/main/e/embree/; do
+        if [ -n "$mirror" ] && /usr/lib/apt/apt-helper download-file "$mirror$embree_source" "$portable/$embree_source" \
+            "SHA256:$embree_sha256" >"$portable/embree_fetch.log" 2>&1; then return; fi
+    done
+    tail -n 5 "$portable/embree_fetch.log" >&2
+    fail "could not fetch $embree_source from Debian; put it into $portable by hand"
+}
+
+unpack_embree() {
+    rm -rf "$portable/embree_source"
+    mkdir -p "$portable/embree_source"
+    tar -C "$portable/embree_source" --strip-components=1 --exclude='*/tutorials/*' -xJf "$portable/$embree_source"
+    # What is off is compiled all the same, and takes most of the build's time; the linker says if something is missed.
+    local lists=$portable/embree_source/kernels/CMakeLists.txt name
+    for name in "${embree_unused[@]}"; do sed -i "/ [a-z]*\/$name\.cpp/d" "$lists"; done
+    # And the only instruction set there is would be compiled twice.
+    sed -i 's/IF (EMBREE_ISA_SSE42 AND .*/IF (FALSE)/' "$lists"
+    sed -i '/embree_sse42-targets/d' "$portable/embree_source/common/cmake/embree-config.cmake"
+    # Two output operators that nobody calls name members that are not there, which Clang tells since version 19.
+    sed -i 's/(" << a\.u\.lower << ", " << a\.u\.upper << "), " <</" <</' "$portable/embree_source/kernels/subdiv/bezier_curve.h"
+    sed -i 's/ << line\.v0 << ", " <</ <</' "$portable/embree_source/kernels/geometry/pointi.h"
+}
+
+build_embree() {
+    local want
+    want=$(cat "$steps/embree.sh" "$steps/portable_linux.cmake" "$portable/tools/requirements" | sha256sum)
+    [ "$(cat "$portable/embree/digest" 2>/dev/null)" != "$want" ] || return 0
+    [ -e "$portable/$embree_source" ] || fetch_embree
+    say "building Embree $embree_version"
+    unpack_embree
+    rm -rf "$portable/embree_build" "$portable/embree"
+    {
+        cmake -G Ninja -S "$portable/embree_source" -B "$portable/embree_build" -DCMAKE_BUILD_TYPE=Release \
+            -DCMAKE_TOOLCHAIN_FILE="$steps/portable_linux.cmake" -DCMAKE_INSTALL_PREFIX="$portable/embree" "${embree_options[@]}" &&
+            cmake --build "$portable/embree_build" && cmake --install "$portable/embree_build" --component devel
+    } >"$portable/embree.log" 2>&1 ||
+        { tail -n 20 "$portable/embree.log" >&2; fail "Embree did not build; the whole log: build/portable/embree.log"; }
+    printf '%s' "$want" >"$portable/embree/digest"
+}

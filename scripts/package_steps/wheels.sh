@@ -1,0 +1,67 @@
+# Sourced by scripts/package: portable wheels of the Python package, in build/packages.
+
+# Folders with just those headers that a portable build may see, none of the machine's C library.
+gather_headers() {
+    rm -rf "$portable/headers"
+    mkdir -p "$portable/headers/glm/include" "$portable/headers/debian"
+    cp "$steps/glmConfig.cmake" "$portable/headers/glm/"
+    ln -s /usr/include/glm "$portable/headers/glm/include/glm"
+    # Debian's Python keeps a part of its configuration apart.
+    ln -s /usr/include/x86_64-linux-gnu "$portable/headers/debian/x86_64-linux-gnu"
+}
+
+# The licences of what is compiled in; all ask to be passed on with it.
+gather_licenses() {
+    rm -rf "$portable/licenses"
+    mkdir -p "$portable/licenses"
+    cp "$portable/embree_source/LICENSE.txt" "$portable/licenses/embree.txt"
+    cp "$portable"/tools/pybind11-*.dist-info/licenses/LICENSE "$portable/licenses/pybind11.txt"
+    cp /usr/share/doc/libglm-dev/copyright "$portable/licenses/glm.txt"
+    cp /usr/share/doc/libeigen3-dev/copyright "$portable/licenses/eigen.txt"
+}
+
+# What wheels are made of; they are made again when it changes.
+wheel_digest() {
+    {
+        find CMakeLists.txt pyproject.toml README.md core python_bindings -type f ! -path '*__pycache__*' ! -path 'core/cli/*' -print0 |
+            sort -z | xargs -0 sha256sum
+        cat "$portable/embree/digest" "$steps"/*.cmake "$steps/exported_symbols.map" "$steps/wheels.sh"
+        "$1" --version
+    } | sha256sum
+}
+
+# build_wheel VERSION PYTHON
+build_wheel() {
+    local tag=cp${1/./} python=$2 want work=$portable/wheel_$1
+    want=$(wheel_digest "$python")
+    [ "$(cat "$work/digest" 2>/dev/null)" != "$want" ] || compgen -G "$packages/skinglow-*-$tag-$tag-manylinux*.whl" >/dev/null || rm -f "$work/digest"
+    [ "$(cat "$work/digest" 2>/dev/null)" != "$want" ] || return 0
+    say "building the portable wheel for Python $1"
+    gather_headers
+    gather_licenses
+    rm -rf "$work" "$packages"/skinglow-*-"$tag-$tag"-*.whl
+    mkdir -p "$work"
+    # One build folder for all versions: the core does not depend on Python and is compiled once.
+    {
+        "$python" -m pip wheel --no-build-isolation --no-deps --wheel-dir "$work" . \
+            -C build-dir="$portable/skinglow_build" -C install.components=python \
+            -C cmake.define.CMAKE_TOOLCHAIN_FILE="$steps/portable_linux.cmake" \
+            -C cmake.define.CMAKE_PROJECT_skinglow_INCLUDE="$steps/wheel_licenses.cmake" \
+            -C cmake.define.SKINGLOW_LICENSES="$portable/licenses" -C cmake.define.SKINGLOW_RAYS=ON \
+            -C cmake.define.embree_DIR="$portable/embree/lib/cmake/embree-$embree_version" \
+            -C cmake.define.glm_DIR="$portable/headers/glm" \
+            -C cmake.define.CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES="$portable/headers/debian" \
+            -C cmake.define.CMAKE_INTERPROCEDURAL_OPTIMIZATION=OFF &&
+            "$python" -m auditwheel repair --only-plat --wheel-dir "$packages" "$work"/*.whl
+    } >"$work/log.txt" 2>&1 ||
+        { tail -n 30 "$work/log.txt" >&2; fail "the wheel for Python $1 did not build; the whole log: $work/log.txt"; }
+    printf '%s' "$want" >"$work/digest"
+}
+
+# The small wheel by which scripts find the extension, for any Python, in build/portable/script_access.
+build_script_access() {
+    rm -rf "$portable/script_access"
+    "$1" -m pip wheel --quiet --no-build-isolation --no-deps --wheel-dir "$portable/script_access" blender_addon/script_access \
+        >"$portable/script_access.log" 2>&1 ||
+        { tail -n 20 "$portable/script_access.log" >&2; fail "the wheel for scripts did not build; the whole log: build/portable/script_access.log"; }
+}
