@@ -21,7 +21,8 @@ void require_between(const std::string& name, double value, double least, double
 }
 
 void validate_shape(const Light& light, const std::string& who) {
-    constexpr double pi = std::numbers::pi;
+    // A host's single-precision pi is a little above pi.
+    constexpr double pi = std::numbers::pi_v<float>;
     constexpr std::string_view half_turn = "an angle of 0 to pi radians";
     switch (light.kind) {
         case LightKind::point:

@@ -64,9 +64,9 @@ struct Light {
 
 /// Throws std::invalid_argument, naming light, field, value and what is allowed, on non-finite or negative
 /// colour, non-finite position, direction, tangent or power, a direction of length 0 where the kind needs
-/// one, a negative size or radius, an angle or blend out of range. Sizes and angles are checked for the kinds
-/// that have them. Negative power is allowed, as in Blender, where such a lamp takes light away; mode `paper`
-/// does not look at its sign.
+/// one, a negative size or radius, an angle or blend out of range (single-precision pi counts as pi). Sizes
+/// and angles are checked for the kinds that have them. Negative power is allowed, as in Blender, where such
+/// a lamp takes light away; mode `paper` does not look at its sign.
 void validate(const Light& light);
 
 /// False for a lamp that gives nothing: hidden, power 0 or black. Such a lamp is left out, as if it were not

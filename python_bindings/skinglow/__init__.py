@@ -1,4 +1,4 @@
-"""Skin that glows in the colour of your lights: recoloured transmission lookup tables for thin, back-lit skin.
+"""Skin that glows in the colour of your lights: recoloured lookup tables for thin, back-lit skin.
 
 Data flows one way: lights -> light_weight -> recolour(base, B + L) -> a host's image.
 mm, W, nm, radians and linear Rec.709 everywhere; arrays are numpy float64; bad input raises ValueError.
@@ -7,3 +7,4 @@ Importing this loads neither OpenImageIO nor Embree: Blender has libraries of it
 
 from skinglow._core import *  # noqa: F403  the compiled module lists its public names
 from skinglow._core import __version__  # noqa: F401
+from skinglow._thickness import thickness  # noqa: F401

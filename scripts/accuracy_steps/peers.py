@@ -14,26 +14,19 @@ def six_gaussians(thickness_mm: np.ndarray) -> np.ndarray:
 
     E. d'Eon, D. Luebke, GPU Gems 3 (2007), ch. 14.
     """
-    return np.asarray(
-        sg.six_gaussian_lookup(thickness_mm.size, float(thickness_mm[-1]))
-    )
+    return np.asarray(sg.six_gaussian_lookup(thickness_mm.size, float(thickness_mm[-1])))
 
 
 def deep_skin(tissue: sg.Tissue, wavelengths_nm: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Reflectance of thick skin lit diffusely, and the rate (1/mm) at which its transmittance falls in the end."""
     reflectance = np.array(
-        [
-            sg.slab(sg.skin_layers(tissue, DEEP_MM[0], nm), "diffuse", streams=16).reflectance
-            for nm in wavelengths_nm
-        ]
+        [sg.slab(sg.skin_layers(tissue, DEEP_MM[0], nm), "diffuse", streams=16).reflectance for nm in wavelengths_nm]
     )
     deep = sg.transmittance(tissue, DEEP_MM, wavelengths_nm, streams=16)
     return reflectance, -np.log(deep[1] / deep[0]) / (DEEP_MM[1] - DEEP_MM[0])
 
 
-def burley(
-    thickness_mm: np.ndarray, reflectance: np.ndarray, decay_rate: np.ndarray
-) -> np.ndarray:
+def burley(thickness_mm: np.ndarray, reflectance: np.ndarray, decay_rate: np.ndarray) -> np.ndarray:
     """The plane integral of Burley's normalised diffusion profile, (thickness, wavelength).
 
     R(r) = A (exp(-r/s) + exp(-r/3s)) / (8 pi s r) summed over the plane at distance d is

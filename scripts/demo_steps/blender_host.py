@@ -74,7 +74,8 @@ class Host:
             assert running.stdout is not None
             for line in running.stdout:
                 if not line.startswith(MARK):
-                    progress.note(line)
+                    if not line.startswith("Fra:"):  # Cycles counts every sample
+                        progress.note(line)
                     continue
                 message = json.loads(line.removeprefix(MARK))
                 if "result" in message:

@@ -7,6 +7,7 @@ import math
 import os
 import sys
 import time
+import traceback
 from pathlib import Path
 from typing import Any
 
@@ -72,23 +73,18 @@ class Studio:
         self.lights[name] = sb.light_report(self.head, bpy.context.evaluated_depsgraph_get())
 
     def render_light_through(self) -> None:
-        """The glow alone, as linear EXR: no surface, one box per pixel as in POV-Ray, alpha for the outline."""
+        """The glow alone, as linear EXR: one box per pixel as in POV-Ray, alpha for the outline."""
         scene, settings = self.scene, self.scene.render.image_settings
-        sb.show_light_through(self.head, True)
-        for eye in [o for o in scene.objects if o.type == "MESH" and o != self.head]:
-            eye.hide_render = True
         kept = scene.cycles.pixel_filter_type, scene.cycles.samples
         scene.cycles.pixel_filter_type, scene.cycles.samples = "BOX", 64
         scene.render.film_transparent = True
         settings.file_format, settings.color_depth, settings.color_mode = "OPEN_EXR", "32", "RGBA"
-        self.render("light_through_blender.exr", "")
+        with stage.light_through_alone(self.head):
+            self.render("light_through_blender.exr", "")
         settings.file_format, settings.color_depth, settings.color_mode = "PNG", "8", "RGB"
         bpy.data.images["Render Result"].save_render(str(OUT / "light_through_blender.png"))
         scene.render.film_transparent = False
         scene.cycles.pixel_filter_type, scene.cycles.samples = kept
-        for thing in scene.objects:
-            thing.hide_render = False
-        sb.show_light_through(self.head, False)
 
 
 def main() -> dict[str, Any]:
@@ -106,7 +102,10 @@ def main() -> dict[str, Any]:
     step("Cycles: the light coming through, alone")
     studio.render_light_through()
     step("writing the scene for POV-Ray")
-    sb.export_povray(bpy.context.evaluated_depsgraph_get(), str(OUT / "povray"))
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    sb.export_povray(depsgraph, OUT / "povray")
+    # The second opinion: the lookup is POV-Ray's own work, by the macros, from the lamps and the base.
+    sb.export_povray(depsgraph, OUT / "povray_light_through", surface=False, compute_lut=True)
 
     for name in ("Light1", "Light3"):
         bpy.data.objects.remove(bpy.data.objects[name])
@@ -128,7 +127,12 @@ def main() -> dict[str, Any]:
     }
 
 
-result = main()
-print("@skinglow " + json.dumps({"result": result}), flush=True)
+try:
+    print("@skinglow " + json.dumps({"result": main()}, default=np.ndarray.tolist), flush=True)
+    code = 0
+except BaseException:  # whatever it was: left to itself, the 4.5 wheel would not end but wait for ever in a destructor
+    traceback.print_exc()
+    code = 1
 sys.stdout.flush()
-os._exit(0)  # the 4.5 wheel would wait for ever in a destructor
+sys.stderr.flush()
+os._exit(code)

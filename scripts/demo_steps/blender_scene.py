@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -150,6 +152,24 @@ def skin_surface(head: bpy.types.Object, colour_map: str | None, normal_map: str
         links.new(bump.outputs["Normal"], surface.inputs["Normal"])
     head.data.materials.clear()
     head.data.materials.append(material)
+
+
+@contextmanager
+def light_through_alone(head: bpy.types.Object) -> Iterator[None]:
+    """While it lasts, the head shows the light coming through and no surface, and stands alone."""
+    others = [o for o in bpy.context.scene.objects if o.type == "MESH" and o != head]
+    tree = head.active_material.node_tree
+    surface = next(n.inputs["Surface"] for n in tree.nodes if n.bl_idname == "ShaderNodeGroup")
+    source = surface.links[0].from_socket
+    tree.links.remove(surface.links[0])
+    for other in others:
+        other.hide_render = True
+    try:
+        yield
+    finally:
+        tree.links.new(source, surface)
+        for other in others:
+            other.hide_render = False
 
 
 def centre_of(head: bpy.types.Object) -> Vector:

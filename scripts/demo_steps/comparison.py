@@ -14,11 +14,12 @@ ALLOWED_RMS = 1.0 / 255.0
 
 
 def render_and_compare(out: Path, size: int, progress: Progress) -> dict[str, Any]:
-    """Leaves light_through_povray.{exr,png} and difference.png in `out`; returns the figures of the comparison."""
-    scene = out / "povray"
-    progress.say("POV-Ray: the light coming through")
-    _povray(scene, out / "light_through_povray.exr", ["+FE"], size, progress)
-    _povray(scene, out / "light_through_povray.png", ["+FN"], size, progress)
+    """Leaves POV-Ray's pictures and difference.png in `out`; returns the figures of the comparison."""
+    progress.say("POV-Ray: the head")
+    _povray(out / "povray", out / "table1_povray.png", ["+FN", "+R3"], size, progress)
+    progress.say("POV-Ray: the light coming through, alone")
+    _povray(out / "povray_light_through", out / "light_through_povray.exr", ["+FE", "+R8"], size, progress)
+    _povray(out / "povray_light_through", out / "light_through_povray.png", ["+FN", "+R8"], size, progress)
     progress.say("comparing the two")
     pictures = ["light_through_blender.exr", "light_through_povray.exr"]
     options = ["--ignore-edges", "--json", "--heatmap", "difference.png"]
@@ -33,8 +34,8 @@ def render_and_compare(out: Path, size: int, progress: Progress) -> dict[str, An
 
 
 def _povray(folder: Path, picture: Path, kind: list[str], size: int, progress: Progress) -> None:
-    """Sixty-four samples a pixel on a grid, no jitter: the mean over the pixel's square, as Blender's box filter."""
-    sampling = ["+A0.0", "+AM1", "+R8", "-J"]
+    """Samples a pixel on a grid, without jitter: the mean over its square, as Blender's box filter."""
+    sampling = ["+A0.0", "+AM1", "-J"]
     command = [
         "povray",
         "scene.pov",

@@ -86,15 +86,20 @@ def pictures(path: Path, out: Path, rows: list[tuple[str, str]]) -> None:
 
 
 def hosts(path: Path, out: Path, numbers: dict[str, Any]) -> None:
+    """Both programs, the whole picture above and the light coming through alone below, beside its difference."""
     compared = numbers["comparison"]
     titles = {
-        "light_through_blender.png": f"Blender {numbers['blender']}",
-        "light_through_povray.png": "POV-Ray",
+        "table1_paper.png": f"Blender {numbers['blender']} (Cycles)",
+        "table1_povray.png": "POV-Ray 3.7: no light from wall to wall, no gloss",
+        "": "",
+        "light_through_blender.png": "Blender: the light coming through, alone",
+        "light_through_povray.png": "POV-Ray: the same, its lookup computed by the macros",
         "difference.png": f"difference: RMS {compared['rms']:.1e}, white is {compared['heat_map_white']:.1e}",
     }
-    figure, axes = plt.subplots(1, 3, figsize=(15, 5.3))
-    for axis, (name, title) in zip(axes, titles.items(), strict=True):
-        axis.imshow(plt.imread(out / name))
+    figure, axes = plt.subplots(2, 3, figsize=(15, 10.3))
+    for axis, (name, title) in zip(axes.flat, titles.items(), strict=True):
+        if name:
+            axis.imshow(plt.imread(out / name))
         axis.set_title(title)
         axis.axis("off")
     save(figure, path)

@@ -9,6 +9,5 @@ set(CMAKE_CXX_COMPILER_TARGET x86_64-linux-gnu.2.28)
 # debugging information unasked.
 set(CMAKE_C_FLAGS_INIT "-mcpu=x86_64_v2 -w -g0")
 set(CMAKE_CXX_FLAGS_INIT "-mcpu=x86_64_v2 -w -g0")
-set(CMAKE_MODULE_LINKER_FLAGS_INIT "-Wl,-z,defs -Wl,--version-script=${CMAKE_CURRENT_LIST_DIR}/exported_symbols.map")
 # Only modules are linked: for a program, be it a test of CMake's, zig would compile its C++ library a second time.
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)

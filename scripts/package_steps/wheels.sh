@@ -34,24 +34,28 @@ wheel_digest() {
 build_wheel() {
     local tag=cp${1/./} python=$2 want work=$portable/wheel_$1
     want=$(wheel_digest "$python")
-    [ "$(cat "$work/digest" 2>/dev/null)" != "$want" ] || compgen -G "$packages/skinglow-*-$tag-$tag-manylinux*.whl" >/dev/null || rm -f "$work/digest"
-    [ "$(cat "$work/digest" 2>/dev/null)" != "$want" ] || return 0
+    if [ "$(cat "$work/digest" 2>/dev/null)" = "$want" ] && compgen -G "$packages/skinglow-*-$tag-*.whl" >/dev/null; then return; fi
     say "building the portable wheel for Python $1"
     gather_headers
     gather_licenses
     rm -rf "$work" "$packages"/skinglow-*-"$tag-$tag"-*.whl
     mkdir -p "$work"
-    # One build folder for all versions: the core does not depend on Python and is compiled once.
+    # One build folder for all versions: the core does not depend on Python and is compiled once. What the compiler is
+    # told is kept in it from the first time on.
+    local told setting
+    told=$(cat "$portable/embree/digest" "$steps"/*.cmake | sha256sum)
+    [ "$(cat "$portable/skinglow_build/told" 2>/dev/null)" = "$told" ] || rm -rf "$portable/skinglow_build"
+    mkdir -p "$portable/skinglow_build"
+    printf '%s' "$told" >"$portable/skinglow_build/told"
+    local settings=(build-dir="$portable/skinglow_build" install.components=python)
+    for setting in SKINGLOW_RAYS=ON SKINGLOW_LICENSES="$portable/licenses" \
+        CMAKE_TOOLCHAIN_FILE="$steps/portable_linux.cmake" CMAKE_PROJECT_skinglow_INCLUDE="$steps/portable_modules.cmake" \
+        CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES="$portable/headers/debian" CMAKE_INTERPROCEDURAL_OPTIMIZATION=OFF \
+        glm_DIR="$portable/headers/glm" embree_DIR="$portable/embree/lib/cmake/embree-$embree_version"; do
+        settings+=("cmake.define.$setting")
+    done
     {
-        "$python" -m pip wheel --no-build-isolation --no-deps --wheel-dir "$work" . \
-            -C build-dir="$portable/skinglow_build" -C install.components=python \
-            -C cmake.define.CMAKE_TOOLCHAIN_FILE="$steps/portable_linux.cmake" \
-            -C cmake.define.CMAKE_PROJECT_skinglow_INCLUDE="$steps/wheel_licenses.cmake" \
-            -C cmake.define.SKINGLOW_LICENSES="$portable/licenses" -C cmake.define.SKINGLOW_RAYS=ON \
-            -C cmake.define.embree_DIR="$portable/embree/lib/cmake/embree-$embree_version" \
-            -C cmake.define.glm_DIR="$portable/headers/glm" \
-            -C cmake.define.CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES="$portable/headers/debian" \
-            -C cmake.define.CMAKE_INTERPROCEDURAL_OPTIMIZATION=OFF &&
+        "$python" -m pip wheel --no-build-isolation --no-deps --wheel-dir "$work" "${settings[@]/#/--config-settings=}" . &&
             "$python" -m auditwheel repair --only-plat --wheel-dir "$packages" "$work"/*.whl
     } >"$work/log.txt" 2>&1 ||
         { tail -n 30 "$work/log.txt" >&2; fail "the wheel for Python $1 did not build; the whole log: $work/log.txt"; }
@@ -63,5 +67,5 @@ build_script_access() {
     rm -rf "$portable/script_access"
     "$1" -m pip wheel --quiet --no-build-isolation --no-deps --wheel-dir "$portable/script_access" blender_addon/script_access \
         >"$portable/script_access.log" 2>&1 ||
-        { tail -n 20 "$portable/script_access.log" >&2; fail "the wheel for scripts did not build; the whole log: build/portable/script_access.log"; }
+        { tail -n 20 "$portable/script_access.log" >&2; fail "the wheel for scripts did not build"; }
 }

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Skinglow for Blender: skin that glows in the colour of your lights, updated as they change.
+
+As an add-on it is registered by Blender. From a script: `import skinglow_blender as sb` with this folder's parent on
+`sys.path`, then the functions below. Each registers first if need be; `sb.register()` does so for a file whose skins
+are only to be followed.
+"""
+
+from collections.abc import Callable
+from functools import wraps
+from typing import Any
+
+from . import bundled_core, handlers, light_listing, povray_export, skin, skin_settings
+from .errors import SkinError
+from .live_update import Rebuilt
+from .skin import SkinState
+
+bl_info = {
+    "name": "Skinglow",
+    "description": "Skin that glows in the colour of your lights",
+    "author": "Skinglow contributors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "3D View > Sidebar > Skinglow, and Object properties",
+    "category": "Material",
+}
+
+__all__ = [
+    "Rebuilt",
+    "SkinError",
+    "SkinState",
+    "export_povray",
+    "light_report",
+    "lut",
+    "make_skin",
+    "register",
+    "remove_skin",
+    "unregister",
+    "update",
+]
+
+_PARTS = (bundled_core, skin_settings, handlers)
+_registered = False
+
+
+def register() -> None:
+    """Registers the add-on; a second call does nothing."""
+    global _registered
+    if _registered:
+        return
+    for part in _PARTS:
+        part.register()
+    _registered = True
+
+
+def unregister() -> None:
+    """Takes back all that `register` did; skins in the file keep the lookups they show."""
+    global _registered
+    if not _registered:
+        return
+    for part in reversed(_PARTS):
+        part.unregister()
+    _registered = False
+
+
+def _registering(function: Callable[..., Any]) -> Callable[..., Any]:
+    @wraps(function)
+    def call(*args: Any, **kwargs: Any) -> Any:  # noqa: ANN401
+        register()
+        return function(*args, **kwargs)
+
+    return call
+
+
+make_skin = _registering(skin.make_skin)
+update = _registering(skin.update)
+lut = _registering(skin.lut)
+light_report = _registering(light_listing.light_report)
+export_povray = _registering(povray_export.export_povray)
+remove_skin = _registering(skin.remove_skin)

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""All that differs between Blender 3.4 and 5.2, so that the rest of the add-on need not ask."""
+
+import bpy
+import numpy as np
+
+VERSION = bpy.app.version
+
+#: Before 4.0 an area light's watts were spread otherwise, and a wide sun gave less (skinglow.LEGACY_AREA_POWER_FACTOR,
+#: skinglow.legacy_sun_power_factor); the spot's beam fell off by the cosine to its axis besides. Measured with Cycles.
+LEGACY_LIGHT_POWER = VERSION < (4, 0, 0)
+SPOT_HAS_COSINE = VERSION < (4, 0, 0)
+
+
+def eevee_engine() -> str:
+    """The name of the EEVEE that this version has."""
+    return "BLENDER_EEVEE_NEXT" if (4, 2, 0) <= VERSION < (5, 0, 0) else "BLENDER_EEVEE"
+
+
+def new_group_socket(
+    group: bpy.types.NodeTree, name: str, kind: str, in_out: str, description: str
+) -> None:
+    """Adds a socket to a node group's face; in_out is 'INPUT' or 'OUTPUT'."""
+    if hasattr(group, "interface"):
+        socket = group.interface.new_socket(name, in_out=in_out, socket_type=kind)
+    else:
+        socket = (group.inputs if in_out == "INPUT" else group.outputs).new(kind, name)
+    socket.description = description
+
+
+def shader_tree(owner: bpy.types.ID) -> bpy.types.NodeTree | None:
+    """The node tree that a material or light really uses, or None."""
+    if VERSION < (5, 0, 0) and not owner.use_nodes:
+        return None
+    return owner.node_tree
+
+
+def ensure_shader_tree(material: bpy.types.Material) -> bpy.types.NodeTree:
+    """A material's node tree, made if it has none."""
+    if VERSION < (5, 0, 0) and not material.use_nodes:
+        material.use_nodes = True
+    return material.node_tree
+
+
+def socket_named(
+    sockets: bpy.types.bpy_prop_collection, *names: str
+) -> bpy.types.NodeSocket | None:
+    """The first socket that goes by one of these names: the Principled BSDF's were renamed in 4.0."""
+    for name in names:
+        if name in sockets:
+            return sockets[name]
+    return None
+
+
+def light_exposure(light: bpy.types.Light) -> float:
+    """Stops by which a lamp is brightened (4.5); 0 before."""
+    return getattr(light, "exposure", 0.0)
+
+
+def light_temperature_color(light: bpy.types.Light) -> tuple[float, float, float] | None:
+    """Linear colour of the lamp's temperature where that is in use (4.5)."""
+    if not getattr(light, "use_temperature", False):
+        return None
+    return tuple(light.temperature_color)
+
+
+def light_is_normalized(light: bpy.types.Light) -> bool:
+    """Whether a lamp's power stays when its size changes (always so before 4.5)."""
+    return getattr(light, "normalize", True)
+
+
+def light_receivers(obj: bpy.types.Object) -> bpy.types.Collection | None:
+    """The collection of objects a lamp is linked to (4.0); None: it lights all."""
+    linking = getattr(obj, "light_linking", None)
+    return linking.receiver_collection if linking is not None else None
+
+
+def corner_normals(mesh: bpy.types.Mesh) -> np.ndarray:
+    """The shading normal of each face corner, (n_loops, 3) float32, in the mesh's own space."""
+    normals = np.empty(3 * len(mesh.loops), np.float32)
+    if hasattr(mesh, "corner_normals"):
+        mesh.corner_normals.foreach_get("vector", normals)
+    else:
+        mesh.calc_normals_split()
+        mesh.loops.foreach_get("normal", normals)
+    return normals.reshape(-1, 3)

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender's calls when something changes. No exception leaves them: a fault is kept for the panel."""
+
+import traceback
+from collections.abc import Callable
+from typing import Any
+
+import bpy
+from bpy.app.handlers import persistent
+
+from .errors import SkinError
+from .live_update import STATE, update_scene
+from .lut_image import images_of, skin_groups
+
+#: Changes of these alone cannot change a lamp or a skin's place.
+HARMLESS = frozenset(("Material", "Image", "Texture", "Brush", "Text", "Action", "World", "Screen", "WindowManager"))
+
+
+def guarded(function: Callable[..., None]) -> Callable[..., None]:
+    """Keeps exceptions in. Blender hands handlers as many arguments as the function has positional ones: two."""
+
+    def handler(first: Any, second: Any = None) -> None:  # noqa: ANN401  differs between handlers and versions
+        try:
+            function(first, second)
+        except (SkinError, ValueError) as error:
+            STATE.faults["*"] = str(error)
+        except Exception as error:  # noqa: BLE001  whatever it is, the user's work goes on
+            STATE.faults["*"] = f"Unexpected: {type(error).__name__}: {error} (the system console has the details)"
+            traceback.print_exc()
+
+    handler.__name__ = function.__name__
+    return persistent(handler)
+
+
+@guarded
+def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    """Something was edited."""
+    if not any(type(update.id).__name__ not in HARMLESS for update in depsgraph.updates):
+        return
+    update_scene(depsgraph, only_live=True)
+
+
+@guarded
+def on_frame_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    """Another frame: in an animation render this is the only depsgraph that holds the lights of that frame."""
+    if depsgraph.mode == "RENDER" and STATE.render_frame not in (None, scene.frame_current_final):
+        # A step of motion blur. The picture is that of the frame itself; writing now would spoil it, as the
+        # renderer may not have read the frame's image yet.
+        return
+    update_scene(depsgraph, only_live=True)
+
+
+@guarded
+def on_render_init(_scene: bpy.types.Scene, _unused: None) -> None:
+    """A render begins: the viewport's images wait until it is over."""
+    STATE.rendering = True
+
+
+@guarded
+def on_render_pre(scene: bpy.types.Scene, _unused: None) -> None:
+    """A frame's render begins."""
+    STATE.rendering = True
+    STATE.render_frame = scene.frame_current_final
+
+
+@guarded
+def on_render_end(_scene: bpy.types.Scene, _unused: None) -> None:
+    """The render is over, or was cancelled: the viewport's lookups come back."""
+    STATE.rendering = False
+    STATE.render_frame = None
+    show_viewport()
+
+
+@guarded
+def on_data_replaced(_first: Any, _second: Any) -> None:  # noqa: ANN401
+    """Load, undo or redo: nothing remembered holds any more."""
+    STATE.rendering = False
+    STATE.render_frame = None
+    STATE.forget()
+
+
+@guarded
+def on_save(_first: Any, _second: Any) -> None:  # noqa: ANN401
+    """Generated pixels are not saved unless packed."""
+    for image in {i for group in skin_groups() for i in images_of(group)}:
+        if image.library is None and image.is_dirty:
+            image.pack()
+
+
+def show_viewport() -> None:
+    """Puts the viewport's images back into the nodes."""
+    for group in skin_groups():
+        atlas = STATE.atlases.get((group.name_full, "VIEWPORT"))
+        if atlas is not None:
+            atlas.show(group)
+
+
+HANDLERS = (
+    ("depsgraph_update_post", on_depsgraph_update),
+    ("frame_change_post", on_frame_change),
+    ("render_init", on_render_init),
+    ("render_pre", on_render_pre),
+    ("render_complete", on_render_end),
+    ("render_cancel", on_render_end),
+    ("load_post", on_data_replaced),
+    ("undo_post", on_data_replaced),
+    ("redo_post", on_data_replaced),
+    ("save_pre", on_save),
+)
+
+
+def register() -> None:
+    """Asks Blender for its calls."""
+    for event, handler in HANDLERS:
+        getattr(bpy.app.handlers, event).append(handler)
+
+
+def unregister() -> None:
+    """Takes them back."""
+    for event, handler in HANDLERS:
+        handlers = getattr(bpy.app.handlers, event)
+        if handler in handlers:
+            handlers.remove(handler)
+    STATE.forget()

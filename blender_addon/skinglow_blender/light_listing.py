@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What each lamp of a scene does for a skin, and why it does nothing."""
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from .errors import core
+from .scene_lights import Lamp, make_light
+from .scene_reading import Skin, read_scene, read_skin
+from .skin import skin_settings_of
+
+
+def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[dict[str, Any]]:
+    """A dict for each lamp of the depsgraph, and for each lamp of the scene that the depsgraph leaves out.
+
+    name      of the lamp's object; " in <name>" where something instances it
+    kind      'POINT', 'SUN', 'SPOT' or 'AREA'
+    weight    (3,) float64: colour times attenuation in modes existing and paper; irradiance, W/m^2, in mode physical
+    distance  from the skin's reference point, scene units; 0 for a sun, None for a lamp that is not in the depsgraph
+    share     of the sum of all weights, 0 to 1
+    reason    why its weight is zero, in words, or ""
+    note      what of it could not be taken over, or ""
+    """
+    skin_settings_of(obj)
+    evaluated = obj.evaluated_get(depsgraph)
+    skin = read_skin(evaluated, evaluated.matrix_world)
+    lamps = read_scene(depsgraph).lamps
+    rows = [_row(skin, lamp) for lamp in lamps]
+    total = sum(float(np.sum(row["weight"])) for row in rows)
+    for row in rows:
+        row["share"] = float(np.sum(row["weight"])) / total if total > 0.0 else 0.0
+    seen = {lamp.name for lamp in lamps}
+    for other in depsgraph.scene.objects:
+        if other.type == "LIGHT" and other.name not in seen:
+            rows.append(
+                {
+                    "name": other.name, "kind": other.data.type, "weight": np.zeros(3), "distance": None,
+                    "share": 0.0, "reason": _why_hidden(other, depsgraph), "note": "",
+                }
+            )
+    return rows
+
+
+def _row(skin: Skin, lamp: Lamp) -> dict[str, Any]:
+    sg = core()
+    weight, distance, reason = np.zeros(3), None, lamp.left_out
+    if not reason and not lamp.lights(skin.name):
+        reason = "light linking keeps it from this object"
+    try:
+        light = make_light(lamp)
+        found = sg.light_report([light], skin.point)[0]
+        distance = found["distance"]
+        if not reason:
+            if skin.mode == "PHYSICAL":
+                weight = np.asarray(found["weight"], dtype=np.float64)
+            else:
+                weight = sg.light_weights([light], skin.point, skin.attenuation)[0]
+            if not np.any(weight):
+                reason = found["state"] if found["state"] != "shines" else "its attenuation is 0"
+    except ValueError as error:
+        reason = reason or str(error)
+    return {
+        "name": lamp.name, "kind": lamp.signature[1], "weight": weight, "distance": distance,
+        "share": 0.0, "reason": reason, "note": lamp.note,
+    }
+
+
+def _why_hidden(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> str:
+    if depsgraph.mode == "RENDER":
+        return "hidden in renders" if obj.hide_render else "its collection is hidden in renders or excluded"
+    if obj.hide_viewport:
+        return "disabled in viewports"
+    layer = depsgraph.view_layer
+    if obj.name in layer.objects and layer.objects[obj.name].hide_get(view_layer=layer):
+        return "hidden in the viewport"
+    return "its collection is hidden or excluded from the view layer"

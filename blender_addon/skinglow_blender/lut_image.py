@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The lookups of all skins in one image, a row for each, and how new pixels reach the renderers.
+
+Cycles never reads an image again that it has loaded. So an image that is being shown is never written: the idle one
+of a pair is, and is then put in its place. Viewport and render see different lights, so each has a pair of its own,
+and coming back from a render shows the viewport's again without computing anything.
+"""
+
+import bpy
+import numpy as np
+
+from .errors import SkinError
+
+FIRST_ROWS = 16
+#: The image nodes: of the texel below a thickness and of the one above.
+NODE_NAMES = ("LUT below", "LUT above")
+#: On the node groups that are ours.
+GROUP_PROPERTY = "skinglow"
+SLOTS = ("viewport_a", "viewport_b", "render_a", "render_b")
+
+
+def is_skin_group(tree: bpy.types.NodeTree | None) -> bool:
+    """Whether a node tree is one of ours."""
+    return tree is not None and GROUP_PROPERTY in tree and all(name in tree.nodes for name in NODE_NAMES)
+
+
+def skin_groups() -> list[bpy.types.NodeTree]:
+    """All skin node groups of the file."""
+    return [tree for tree in bpy.data.node_groups if is_skin_group(tree)]
+
+
+def shown_image(group: bpy.types.NodeTree) -> bpy.types.Image | None:
+    """The image that a group's nodes show."""
+    return group.nodes[NODE_NAMES[0]].image
+
+
+def show_image(group: bpy.types.NodeTree, image: bpy.types.Image) -> None:
+    """Has a group's nodes show an image."""
+    for name in NODE_NAMES:
+        node = group.nodes[name]
+        # An equal value would be tagged all the same, and each tag restarts the viewport.
+        if node.image != image:
+            node.image = image
+
+
+def images_of(group: bpy.types.NodeTree) -> list[bpy.types.Image]:
+    """A group's four images in the order of SLOTS; fewer where some are gone."""
+    shown = shown_image(group)
+    if shown is None:
+        return []
+    return [image for image in (getattr(shown.skinglow, slot) for slot in SLOTS) if image is not None]
+
+
+def image_pair(group: bpy.types.NodeTree, mode: str) -> tuple[bpy.types.Image, bpy.types.Image]:
+    """The two images of a depsgraph mode, 'VIEWPORT' or 'RENDER'."""
+    images = images_of(group)
+    if len(images) != len(SLOTS):
+        raise SkinError(f"An image of the node group '{group.name}' is gone; make the skin again to restore it")
+    return (images[2], images[3]) if mode == "RENDER" else (images[0], images[1])
+
+
+def has_room(group: bpy.types.NodeTree, width: int, rows: int) -> bool:
+    """Whether a group's images are there and hold that many entries and rows."""
+    images = images_of(group)
+    return len(images) == len(SLOTS) and all(i.size[0] >= width and i.size[1] >= rows for i in images)
+
+
+def ensure_images(group: bpy.types.NodeTree, width: int, rows: int) -> None:
+    """Makes a group's images, or enlarges them, to hold that many entries and rows. Not to be called while rendering."""
+    if has_room(group, width, rows):
+        return
+    images = images_of(group)
+    if len(images) != len(SLOTS):
+        images = [_new_image(f".Skinglow LUT {slot.replace('_', ' ')}", width, _power_of_two(rows)) for slot in SLOTS]
+        # Each knows all four, so that whichever is shown keeps the others in the file and brings them along.
+        for image in images:
+            for slot, other in zip(SLOTS, images, strict=True):
+                setattr(image.skinglow, slot, other)
+        show_image(group, images[0])
+        return
+    width, rows = max(width, images[0].size[0]), max(_power_of_two(rows), images[0].size[1])
+    for image in images:
+        image.scale(width, rows)
+
+
+def _power_of_two(rows: int) -> int:
+    height = FIRST_ROWS
+    while height < rows:
+        height *= 2
+    return height
+
+
+def _new_image(name: str, width: int, height: int) -> bpy.types.Image:
+    image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
+    # Before any pixel is written: setting it clears them.
+    image.colorspace_settings.name = "Non-Color"
+    image.alpha_mode = "CHANNEL_PACKED"
+    # EEVEE would upload half floats.
+    image.use_half_precision = False
+    return image
+
+
+def remove_images(group: bpy.types.NodeTree) -> None:
+    """Deletes a group's images."""
+    for image in images_of(group):
+        if image.library is None:
+            bpy.data.images.remove(image)
+
+
+class Atlas:
+    """What the images of one node group hold for one depsgraph mode; kept beside them, as reading back is slow."""
+
+    def __init__(self, group: bpy.types.NodeTree, mode: str) -> None:
+        self.mode = mode
+        pair = image_pair(group, mode)
+        width, height = pair[0].size
+        self.pixels = np.zeros((height, width, 4), np.float32)
+        self.pixels[:, :, 3] = 1.0
+        self.signatures: dict[str, tuple] = {}
+        self.rows: dict[str, int] = {}
+        self.sizes: dict[str, int] = {}
+        self.texel_mappings: dict[str, tuple[float, float]] = {}
+        #: Which of the pair is up to date, and whether a renderer may have read it since it was written.
+        self.front = 1 if shown_image(group) == pair[1] else 0
+        self.was_shown = True
+
+    def fits(self, group: bpy.types.NodeTree) -> bool:
+        """Whether the images still have the size that this was made for."""
+        width, height = image_pair(group, self.mode)[0].size
+        return self.pixels.shape[:2] == (height, width)
+
+    def put(self, row: int, colors: np.ndarray) -> None:
+        """Takes a table into its row; the last entry goes on to the image's edge."""
+        size = len(colors)
+        self.pixels[row, :size, :3] = colors
+        self.pixels[row, size:, :3] = colors[-1]
+
+    def write(self, group: bpy.types.NodeTree) -> None:
+        """Brings the rows into the image that no renderer has read."""
+        if self.was_shown:
+            self.front = 1 - self.front
+            self.was_shown = False
+        image = image_pair(group, self.mode)[self.front]
+        image.pixels.foreach_set(self.pixels.ravel())
+        if bpy.app.background:
+            # There, Blender 3.4 keeps the texture that EEVEE made of the pixels before.
+            image.gl_free()
+
+    def show(self, group: bpy.types.NodeTree) -> None:
+        """Puts the image that is up to date into the node, if it is not there."""
+        show_image(group, image_pair(group, self.mode)[self.front])
+        self.was_shown = True
+
+
+def read_row(image: bpy.types.Image, row: int, size: int) -> np.ndarray:
+    """The first `size` colours of a row, (size, 3) float32, as they are in the image."""
+    width, height = image.size
+    pixels = np.empty(width * height * 4, np.float32)
+    image.pixels.foreach_get(pixels)
+    return pixels.reshape(height, width, 4)[row, :size, :3].copy()

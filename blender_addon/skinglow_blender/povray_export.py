@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The scene as POV-Ray files for comparison: same camera, mesh, lamps and lookup. The core writes the text."""
+
+import os
+import shutil
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+from . import blender_version
+from .errors import SkinError, core
+from .scene_lights import make_light
+from .scene_reading import SceneReading, Skin, read_scene
+from .skin_material import THICKNESS_ATTRIBUTE, skin_node
+from .skin_tables import base_lut, compute_table, lamps_of
+from .texel_mapping import texels_per_mm
+
+LUT_FILE = "lut.exr"
+
+
+def export_povray(
+    depsgraph: bpy.types.Depsgraph,
+    directory: str | os.PathLike,
+    obj: bpy.types.Object | None = None,
+    surface: bool = True,
+    compute_lut: bool = False,
+) -> list[Path]:
+    """Writes a POV-Ray 3.7 scene of a skin; `povray scene.ini` in the folder renders it. Returns the files written.
+
+    obj          the skin; None: every skin of the depsgraph, each in a folder of its own if there are several
+    surface      False: the light coming through alone, without lamps
+    compute_lut  True: POV-Ray computes the lookup by Eq. 1 to 3 itself (mode paper); False: it reads the EXR
+    Only what the scene uses is written. Raises SkinError where there is no camera, no skin or no way to write.
+    """
+    reading = read_scene(depsgraph)
+    skins = [skin for original, skin in reading.skins if obj is None or original == obj.original]
+    if not skins:
+        what = "no skin" if obj is None else f"no skin '{obj.name}'"
+        raise SkinError(f"There is {what} to export in this view layer: make one first, and do not hide it")
+    if depsgraph.scene.camera is None:
+        raise SkinError("The scene has no camera: POV-Ray needs one to look through")
+    written: list[Path] = []
+    for skin in skins:
+        folder = Path(directory) if len(skins) == 1 else Path(directory) / bpy.path.clean_name(skin.name)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            written += _export_skin(depsgraph, reading, skin, folder, surface, compute_lut)
+        except OSError as error:
+            raise SkinError(f"Cannot write to {folder}: {error.strerror or error}") from error
+    return written
+
+
+def _export_skin(
+    depsgraph: bpy.types.Depsgraph,
+    reading: SceneReading,
+    skin: Skin,
+    folder: Path,
+    surface: bool,
+    compute_lut: bool,
+) -> list[Path]:
+    if compute_lut and skin.mode != "PAPER":
+        raise SkinError(f"POV-Ray computes lookups of mode paper only; '{skin.name}' is in mode {skin.mode.lower()}")
+    obj = bpy.data.objects[skin.name].evaluated_get(depsgraph)
+    base = base_lut(skin.base)
+    arguments: dict[str, Any] = _mesh_arguments(obj, skin, base)
+    arguments.update(_camera_arguments(depsgraph))
+    written = []
+    if surface:
+        look, picture = _surface_arguments(obj, folder)
+        arguments.update(look)
+        written += picture
+    else:
+        arguments.pop("surface_uv", None)
+    if "surface_image" not in arguments:
+        arguments.pop("surface_uv", None)
+    if not compute_lut:
+        written.append(_write_lut(compute_table(skin, reading.lamps).colors, folder / LUT_FILE))
+        arguments["image"] = LUT_FILE
+    files = core().povray_scene(
+        mode=skin.mode.lower(),
+        base=base if skin.mode == "PAPER" else None,
+        size=base.size,
+        max_thickness_mm=base.max_thickness_mm,
+        lights=[make_light(lamp) for lamp in lamps_of(skin, reading.lamps)],
+        point=skin.point,
+        coefficients=skin.attenuation,
+        blood_weight=skin.blood_weight,
+        strength=skin.strength,
+        name=skin.name,
+        **arguments,
+    )
+    return written + [_write_whole(folder / name, text) for name, text in files.items()]
+
+
+def _mesh_arguments(obj: bpy.types.Object, skin: Skin, base: Any) -> dict[str, Any]:  # noqa: ANN401
+    """The evaluated mesh in world space, with the lookup's coordinate at each vertex."""
+    mesh = obj.to_mesh()
+    try:
+        attribute = mesh.attributes.get(THICKNESS_ATTRIBUTE)
+        if attribute is None or attribute.domain != "POINT":
+            raise SkinError(f"'{skin.name}': a modifier takes the thickness away (attribute '{THICKNESS_ATTRIBUTE}')")
+        thickness = np.empty(len(mesh.vertices), np.float32)
+        attribute.data.foreach_get("value", thickness)
+        points = np.empty(3 * len(mesh.vertices), np.float32)
+        mesh.vertices.foreach_get("co", points)
+        mesh.calc_loop_triangles()
+        triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
+        mesh.loop_triangles.foreach_get("vertices", triangles)
+        corners = np.empty(3 * len(mesh.loop_triangles), np.int32)
+        mesh.loop_triangles.foreach_get("loops", corners)
+        smooth = np.empty(len(mesh.loop_triangles), bool)
+        mesh.loop_triangles.foreach_get("use_smooth", smooth)
+        matrix = np.array(obj.matrix_world, np.float64)
+        found = {
+            "vertices": points.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3],
+            "triangles": triangles.reshape(-1, 3),
+            "lut_u": (texels_per_mm(obj, skin, base.texel_mapping) * thickness.astype(np.float64) + 0.5) / base.size,
+        }
+        if smooth.any():
+            normals = blender_version.corner_normals(mesh)[corners] @ np.linalg.inv(matrix[:3, :3])
+            found["normals"] = (normals / np.linalg.norm(normals, axis=1, keepdims=True)).reshape(-1, 3, 3)
+        if mesh.uv_layers.active is not None:
+            uv = np.empty(2 * len(mesh.loops), np.float32)
+            mesh.uv_layers.active.data.foreach_get("uv", uv)
+            found["surface_uv"] = uv.reshape(-1, 2)[corners].reshape(-1, 3, 2)
+        return found
+    finally:
+        obj.to_mesh_clear()
+
+
+def _camera_arguments(depsgraph: bpy.types.Depsgraph) -> dict[str, Any]:
+    render = depsgraph.scene.render
+    width = max(1, render.resolution_x * render.resolution_percentage // 100)
+    height = max(1, render.resolution_y * render.resolution_percentage // 100)
+    camera = depsgraph.scene.camera.evaluated_get(depsgraph)
+    projection = camera.calc_matrix_camera(
+        depsgraph, x=width, y=height, scale_x=render.pixel_aspect_x, scale_y=render.pixel_aspect_y
+    )
+    return {
+        "camera_matrix": np.array(camera.matrix_world, np.float64),
+        "projection": np.array(projection, np.float64),
+        "resolution": (width, height),
+    }
+
+
+def _surface_arguments(obj: bpy.types.Object, folder: Path) -> tuple[dict[str, Any], list[Path]]:
+    """The surface's base colour or picture; nothing where the surface gives back no light by itself."""
+    material = next((s.material for s in obj.material_slots if s.material and skin_node(s.material)), None)
+    tree = blender_version.shader_tree(material) if material is not None else None
+    principled = next((n for n in tree.nodes if n.bl_idname == "ShaderNodeBsdfPrincipled"), None) if tree else None
+    if principled is None:
+        return {}, []
+    socket = principled.inputs["Base Color"]
+    source = socket.links[0].from_node if socket.is_linked else None
+    if source is not None and source.bl_idname == "ShaderNodeTexImage" and source.image is not None:
+        picture = _copy_picture(source.image, folder)
+        if picture is not None:
+            return {"surface_image": picture.name}, [picture]
+    return {"surface_color": tuple(socket.default_value)[:3]}, []
+
+
+def _copy_picture(image: bpy.types.Image, folder: Path) -> Path | None:
+    """A picture's own file, or what is packed, under its own name; None where neither is there."""
+    source = Path(bpy.path.abspath(image.filepath, library=image.library))
+    target = folder / f"surface{source.suffix.lower()}"
+    if image.packed_file is not None:
+        target.write_bytes(image.packed_file.data)
+    elif source.is_file():
+        if source.resolve() != target.resolve():
+            shutil.copyfile(source, target)
+    else:
+        return None
+    return target
+
+
+def _write_lut(colors: np.ndarray, path: Path) -> Path:
+    """The table as a float32 EXR one texel high, by Blender's own writer; exact."""
+    image = bpy.data.images.new(".Skinglow export", len(colors), 1, alpha=False, float_buffer=True)
+    partial = path.with_name(f".{path.name}.part.exr")
+    try:
+        image.colorspace_settings.name = "Non-Color"
+        pixels = np.ones((len(colors), 4), np.float32)
+        pixels[:, :3] = colors
+        image.pixels.foreach_set(pixels.ravel())
+        image.file_format = "OPEN_EXR"
+        image.filepath_raw = str(partial)
+        try:
+            image.save()
+        except RuntimeError as error:
+            raise SkinError(f"Cannot write {path}: {error}") from error
+        os.replace(partial, path)
+    finally:
+        bpy.data.images.remove(image)
+        partial.unlink(missing_ok=True)
+    return path
+
+
+def _write_whole(path: Path, text: str) -> Path:
+    """A text file, whole or not at all."""
+    partial = path.with_name(f".{path.name}.part")
+    try:
+        partial.write_text(text, encoding="utf-8")
+        os.replace(partial, path)
+    finally:
+        partial.unlink(missing_ok=True)
+    return path

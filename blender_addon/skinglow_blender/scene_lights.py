@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The lamps of an evaluated scene as `skinglow.Light`, with what decides whether anything changed."""
+
+from typing import Any, NamedTuple
+
+import bpy
+from mathutils import Matrix
+
+from . import blender_version
+from .errors import core
+from .light_nodes import node_factor
+
+
+#: What a lamp's signature holds, in words.
+FIELDS = ("name", "type", "colour", "power", "position", "direction", "shape", "normalisation")
+
+
+class Lamp(NamedTuple):
+    """One lamp as it shines, an instance counting as a lamp of its own."""
+
+    name: str
+    signature: tuple  #: all that its light depends on (FIELDS); equal signatures, equal light
+    receivers: frozenset[str] | None  #: names of the only objects it lights; None: all
+    excluded: frozenset[str]  #: names of objects it does not light
+    left_out: str  #: why it gives no light, or ""
+    note: str  #: what could not be taken over, or ""
+
+    def lights(self, obj_name: str) -> bool:
+        """Whether light linking lets this lamp reach that object."""
+        if obj_name in self.excluded:
+            return False
+        return self.receivers is None or obj_name in self.receivers
+
+
+def read_lamp(obj: bpy.types.Object, matrix: Matrix, name: str) -> Lamp:
+    """Reads an evaluated lamp object that stands at that world matrix."""
+    light = obj.data
+    kind = light.type
+    color = tuple(light.color)
+    power = light.energy
+    note = ""
+    if blender_version.shader_tree(light) is not None:
+        nodes = node_factor(light)
+        color = tuple(a * b for a, b in zip(color, nodes.color, strict=True))
+        power *= nodes.strength
+        note = nodes.note
+    tint = blender_version.light_temperature_color(light)
+    if tint is not None:
+        color = tuple(a * b for a, b in zip(color, tint, strict=True))
+    stops = blender_version.light_exposure(light)
+    if stops != 0.0:
+        power *= core().exposure_factor(stops)
+
+    along = matrix.col[2]
+    direction = (-along[0], -along[1], -along[2])
+    shape = tuple(_shape(light, kind, matrix).items())
+    where = matrix.col[3]
+    normalized = blender_version.light_is_normalized(light)
+    signature = (name, kind, color, power, (where[0], where[1], where[2]), direction, shape, normalized)
+    receivers, excluded = _linked_objects(obj)
+    return Lamp(name, signature, receivers, excluded, _why_dark(obj, kind, direction), note)
+
+
+def make_light(lamp: Lamp) -> Any:  # noqa: ANN401  a skinglow.Light
+    """The core's lamp; raises ValueError, naming lamp and field, where the core refuses it."""
+    sg = core()
+    name, kind, color, power, position, direction, shape, normalized = lamp.signature
+    fields = dict(shape, kind=kind, color=color, position=position, direction=direction, name=name)
+    if blender_version.LEGACY_LIGHT_POWER:
+        if kind == "AREA":
+            power *= sg.LEGACY_AREA_POWER_FACTOR
+        elif kind == "SUN":
+            power *= sg.legacy_sun_power_factor(fields["sun_angle"])
+    light = sg.Light(power=power, **fields)
+    if not normalized:
+        light = sg.Light(power=power * sg.unnormalised_power_factor(light), **fields)
+    return light
+
+
+def _shape(light: bpy.types.Light, kind: str, matrix: Matrix) -> dict[str, Any]:
+    """The fields of `skinglow.Light` that only this kind has."""
+    if kind == "SUN":
+        return {"sun_angle": light.angle}
+    if kind == "AREA":
+        across, up = matrix.col[0], matrix.col[1]
+        size_y = light.size_y if light.shape in ("RECTANGLE", "ELLIPSE") else light.size
+        return {
+            "area_shape": "ELLIPSE" if light.shape in ("DISK", "ELLIPSE") else "RECTANGLE",
+            "size_x": light.size * across.to_3d().length,
+            "size_y": size_y * up.to_3d().length,
+            "tangent": tuple(across.to_3d()),
+            "spread": light.spread,
+        }
+    fields = {"radius": light.shadow_soft_size, "soft_falloff": getattr(light, "use_soft_falloff", True)}
+    if kind == "SPOT":
+        fields["spot_angle"] = light.spot_size
+        fields["spot_blend"] = light.spot_blend
+        fields["spot_cosine"] = blender_version.SPOT_HAS_COSINE
+    return fields
+
+
+def _why_dark(obj: bpy.types.Object, kind: str, direction: tuple[float, float, float]) -> str:
+    if not obj.visible_diffuse:
+        return "its ray visibility leaves diffuse light out"
+    if kind == "AREA" and getattr(getattr(obj.data, "cycles", None), "is_portal", False):
+        return "it is a portal, which gives no light"
+    if kind != "POINT" and direction == (0.0, 0.0, 0.0):
+        return "its scale is 0, so that it has no direction"
+    return ""
+
+
+def _linked_objects(obj: bpy.types.Object) -> tuple[frozenset[str] | None, frozenset[str]]:
+    """Names of the objects a lamp is linked to (None: all) and of those it is kept from."""
+    collection = blender_version.light_receivers(obj)
+    if collection is None:
+        return None, frozenset()
+    included, excluded = set(), set()
+    for states, members in (
+        (collection.collection_objects, ((o,) for o in collection.objects)),
+        (collection.collection_children, (c.all_objects for c in collection.children)),
+    ):
+        for state, objects in zip(states, members, strict=True):
+            names = {o.name for o in objects}
+            (included if state.light_linking.link_state == "INCLUDE" else excluded).update(names)
+    # Only exclusions: the lamp lights everything else.
+    return (frozenset(included - excluded) if included else None), frozenset(excluded)

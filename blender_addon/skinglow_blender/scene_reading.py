@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One walk through an evaluated scene: which lamps shine in it, and which skins it shows where."""
+
+from typing import NamedTuple
+
+import bpy
+from mathutils import Matrix
+
+from .scene_lights import Lamp, read_lamp
+from .skin_settings import TISSUE_SLIDERS, as_typed
+
+#: A skin object's custom property that its node group reads: texels per mm, texel width, row, strength.
+ROW_PROPERTY = "skinglow_lut"
+
+
+class Skin(NamedTuple):
+    """One skin as the scene shows it."""
+
+    name: str  #: of the object
+    key: str  #: name with library: unique in the file
+    mode: str
+    live: bool
+    strength: float
+    base: tuple  #: what the base lookup is made from
+    blood_weight: tuple[float, float, float]
+    attenuation: tuple[float, float, float]
+    point: tuple[float, float, float]  #: where distances are measured, world
+    world_size: float  #: edge of the cube that a unit cube of the object fills in the world, scene units
+
+
+class SceneReading(NamedTuple):
+    """The lamps and skins of one depsgraph, in its order."""
+
+    lamps: list[Lamp]
+    skins: list[tuple[bpy.types.Object, Skin]]  #: with the original object, valid until undo or load
+
+
+def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
+    """Reads a depsgraph; hidden objects are not in it, and viewport and render have lists of their own."""
+    lamps: list[Lamp] = []
+    skins: list[tuple[bpy.types.Object, Skin]] = []
+    seen: set[str] = set()
+    may_instance = False
+
+    layer = depsgraph.view_layer if depsgraph.mode == "VIEWPORT" else None
+
+    def shows(obj: bpy.types.Object) -> bool:
+        # A collection hidden by its eye in the outliner is in the viewport's depsgraph all the same.
+        return layer is None or obj.original.visible_get(view_layer=layer)
+
+    def take(obj: bpy.types.Object, matrix: Matrix, instancer: bpy.types.Object | None) -> None:
+        if obj.type == "LIGHT":
+            if shows(instancer or obj):
+                lamps.append(read_lamp(obj, matrix, f"{obj.name} in {instancer.name}" if instancer else obj.name))
+        elif ROW_PROPERTY in obj and obj.type == "MESH" and obj.skinglow.enabled:
+            skin = read_skin(obj, matrix)
+            if skin.key not in seen:
+                seen.add(skin.key)
+                skins.append((obj.original, skin))
+
+    # Walking the instances of a scattered forest is slow, so they are only walked where something instances.
+    for obj in depsgraph.objects:
+        take(obj, obj.matrix_world, None)
+        may_instance = may_instance or obj.is_instancer or any(m.type == "NODES" for m in obj.modifiers)
+    if may_instance:
+        for instance in depsgraph.object_instances:
+            if instance.is_instance:
+                take(instance.object, instance.matrix_world, instance.parent)
+    return SceneReading(lamps, skins)
+
+
+def read_skin(obj: bpy.types.Object, matrix: Matrix) -> Skin:
+    """Reads the settings of an evaluated skin object (so that drivers and keyframes count) at that world matrix."""
+    settings = obj.skinglow
+    return Skin(
+        name=obj.name,
+        key=obj.original.name_full,
+        mode=settings.mode,
+        live=settings.live,
+        strength=as_typed(settings.strength),
+        base=_base_key(settings),
+        blood_weight=_triple(settings.blood_weight),
+        attenuation=_triple(settings.attenuation),
+        point=_reference_point(obj, matrix),
+        world_size=abs(matrix.to_3x3().determinant()) ** (1.0 / 3.0),
+    )
+
+
+def _base_key(settings: bpy.types.PropertyGroup) -> tuple:
+    """(kind, entries, mm of the last, ...): all that the base lookup is made from."""
+    size, max_thickness = settings.size, as_typed(settings.max_thickness_mm)
+    if settings.mode == "PHYSICAL" or (settings.mode == "PAPER" and settings.base == "SKIN"):
+        kind = "TISSUE" if settings.mode == "PHYSICAL" else "TISSUE_GREY"
+        return kind, size, max_thickness, tuple(as_typed(getattr(settings, name)) for name in TISSUE_SLIDERS)
+    if settings.mode == "PAPER" and settings.base == "IMAGE":
+        image = settings.base_image
+        if image is None:
+            return "IMAGE", 1, max_thickness, "", ""
+        return "IMAGE", max(image.size[0], 1), max_thickness, image.original.name_full, image.colorspace_settings.name
+    return "BUILTIN", size, max_thickness
+
+
+def _triple(vector: bpy.types.bpy_prop_array) -> tuple[float, float, float]:
+    return as_typed(vector[0]), as_typed(vector[1]), as_typed(vector[2])
+
+
+def _reference_point(obj: bpy.types.Object, matrix: Matrix) -> tuple[float, float, float]:
+    settings = obj.skinglow
+    if settings.reference == "POINT":
+        return _triple(settings.reference_point)
+    if settings.reference == "ORIGIN":
+        origin = matrix.col[3]
+        return origin[0], origin[1], origin[2]
+    # In double precision: mathutils rounds to single, which would show in the last digits of the distances.
+    corner, opposite = obj.bound_box[0], obj.bound_box[6]
+    x, y, z = ((a + b) / 2.0 for a, b in zip(corner, opposite, strict=True))
+    return tuple(row[0] * x + row[1] * y + row[2] * z + row[3] for row in matrix)[:3]

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Making a skin, asking what it shows, and taking it away again."""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import bpy
+import numpy as np
+
+from . import thickness_attribute
+from .errors import SkinError
+from .live_update import STATE, Rebuilt, update_scene
+from .lut_image import image_pair, read_row, remove_images, shown_image
+from .scene_reading import ROW_PROPERTY, read_skin
+from .skin_material import add_to_materials, remove_from_material
+from .skin_settings import apply_settings
+
+
+class SkinState(NamedTuple):
+    """What a skin is set to and shows."""
+
+    name: str  #: of the object
+    mode: str  #: 'EXISTING', 'PAPER' or 'PHYSICAL'
+    point: tuple[float, float, float]  #: where distances are measured, world, scene units
+    size: int  #: entries of its lookup
+    max_thickness_mm: float  #: thickness at the last entry
+    thickness_mm: tuple[float, float]  #: smallest and largest of its vertices
+    unit_mm: float  #: of one scene unit
+    row: int  #: of the lookup image, counted from below
+    rebuilt: tuple[Rebuilt, ...]  #: what making it computed
+
+
+def make_skin(obj: bpy.types.Object, thickness: Sequence[float] | None = None, **settings: Any) -> SkinState:  # noqa: ANN401
+    """Makes a mesh object glow: thickness, lookup node behind its surface, live update.
+
+    obj        a mesh object with faces, not in edit mode; its materials keep their surface
+    thickness  mm, one per vertex, for thicknesses of your own; without it they are measured by rays (only when the
+               mesh, its scale or unit changed since the last time)
+    settings   any property of `obj.skinglow` (skin_settings.py): mode="existing"|"paper"|"physical", strength,
+               blood_weight, attenuation, reference="bounds"|"origin"|"point", reference_point (which implies
+               "point"), size, max_thickness_mm, unit_mm, rays, ... Called again, it changes only what is given.
+    Raises SkinError where the object cannot be a skin, ValueError naming a setting that is not allowed.
+    """
+    thickness_attribute.check_mesh(obj)
+    if "reference_point" in settings:
+        settings.setdefault("reference", "POINT")
+    apply_settings(obj.skinglow, settings)
+    scene = bpy.context.scene
+    if thickness is None:
+        thickness_attribute.ensure_measured(obj, scene)
+    else:
+        thickness_attribute.store(obj, thickness)
+
+    group = add_to_materials(obj, obj.skinglow.group)
+    if obj.skinglow.group != group:
+        obj.skinglow.group = group
+        obj.skinglow.row = -1
+    obj.skinglow.enabled = True
+    if ROW_PROPERTY not in obj:
+        obj[ROW_PROPERTY] = (0.0, 0.0, 0.0, 0.0)
+    obj.update_tag(refresh={"OBJECT"})
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    rebuilt = tuple(r for r in update_scene(depsgraph) if r.skin == obj.name)
+    fault = STATE.faults.get(obj.name_full)
+    if fault is not None:
+        raise SkinError(fault)
+    return state_of(obj, depsgraph)._replace(rebuilt=rebuilt)
+
+
+def state_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SkinState:
+    """The state of a skin as a depsgraph sees it."""
+    settings = skin_settings_of(obj)
+    evaluated = obj.evaluated_get(depsgraph)
+    attribute = obj.data.attributes.get(thickness_attribute.THICKNESS_ATTRIBUTE)
+    values = np.zeros(len(attribute.data) if attribute is not None else 0, np.float32)
+    if len(values):
+        attribute.data.foreach_get("value", values)
+    skin = read_skin(evaluated, evaluated.matrix_world)
+    return SkinState(
+        name=obj.name,
+        mode=skin.mode,
+        point=skin.point,
+        size=skin.base[1],
+        max_thickness_mm=skin.base[2],
+        thickness_mm=(float(values.min()), float(values.max())) if len(values) else (0.0, 0.0),
+        unit_mm=thickness_attribute.unit_mm(obj, depsgraph.scene),
+        row=settings.row,
+        rebuilt=(),
+    )
+
+
+def update(depsgraph: bpy.types.Depsgraph) -> list[Rebuilt]:
+    """Recomputes every skin's lookup whose lamps, place or settings changed; returns what was rebuilt and why.
+
+    The handlers do the same by themselves wherever Blender reports a change. Raises SkinError with all that went
+    wrong, after the other skins are up to date; a skin with a fault keeps its last good lookup.
+    """
+    rebuilt = update_scene(depsgraph)
+    if STATE.faults:
+        raise SkinError("; ".join(STATE.faults.values()))
+    return rebuilt
+
+
+def lut(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
+    """The lookup as the object's material shows it, (size, 3) float32, linear Rec.709, thin skin first.
+
+    It is read from the image that the node shows; where viewport and render differ, from the one of the depsgraph's
+    mode. Raises SkinError where the object is no skin.
+    """
+    settings = skin_settings_of(obj)
+    group = settings.group
+    pair = image_pair(group, depsgraph.mode)
+    image = shown_image(group)
+    atlas = STATE.atlases.get((group.name_full, depsgraph.mode))
+    if image not in pair and atlas is not None:
+        image = pair[atlas.front]
+    if image is None:
+        raise SkinError(f"'{obj.name}': the image of its lookup is gone; make the skin again")
+    size = atlas.sizes.get(obj.original.name_full) if atlas is not None else None
+    if size is None:
+        evaluated = obj.evaluated_get(depsgraph)
+        size = read_skin(evaluated, evaluated.matrix_world).base[1]
+    return read_row(image, settings.row, size)
+
+
+def remove_skin(obj: bpy.types.Object) -> None:
+    """Takes everything away that `make_skin` brought, where no other skin needs it."""
+    settings = obj.skinglow
+    group = settings.group
+    settings.enabled = False
+    settings.property_unset("group")
+    for name in [p.identifier for p in settings.bl_rna.properties if not p.is_readonly]:
+        settings.property_unset(name)
+    obj.pop(ROW_PROPERTY, None)
+    skins = [o for o in bpy.data.objects if o.skinglow.enabled]
+    if not any(o.data == obj.data for o in skins):
+        thickness_attribute.remove(obj.data)
+    used = {slot.material for o in skins for slot in o.material_slots}
+    for slot in obj.material_slots:
+        if slot.material is not None and slot.material not in used and slot.material.library is None:
+            remove_from_material(slot.material)
+    if group is not None and group.library is None and not any(o.skinglow.group == group for o in skins):
+        remove_images(group)
+        if group.users == 0:
+            bpy.data.node_groups.remove(group)
+        STATE.forget()
+    obj.update_tag(refresh={"OBJECT"})
+
+
+def skin_settings_of(obj: bpy.types.Object) -> bpy.types.PropertyGroup:
+    """The settings of a skin; raises SkinError where the object is none."""
+    if obj.type != "MESH" or not obj.skinglow.enabled or obj.skinglow.group is None:
+        raise SkinError(f"'{obj.name}' is not a skin yet: make_skin makes it one")
+    return obj.original.skinglow

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace skinglow {
+
+/// How much more or less of the light that strikes the far side at an angle comes through than of light from
+/// everywhere: w(mu) = T(mu) / T_diffuse, mu the cosine to the normal and T_diffuse = 2 integral of T(mu) mu
+/// dmu. Irradiance from direction mu counts w(mu) times. Diffuse light counts once, by definition, so that
+/// one table M(d) for diffuse light serves lamps from every angle. T is the slab solver's, at a thickness
+/// typical of the object.
+class AngularWeight {
+  public:
+    /// @param mu  ascending, in [0, 1], at least 1; @param transmittance  as many, finite, 0 or more, not all
+    /// 0 in a channel; straight between them in mu, constant beyond the ends. Any common factor drops out.
+    /// Throws std::invalid_argument naming the entry.
+    AngularWeight(std::span<const double> mu, std::span<const glm::dvec3> transmittance);
+    /// One curve for the three channels.
+    AngularWeight(std::span<const double> mu, std::span<const double> transmittance);
+
+    /// w at a cosine, clamped to [0, 1].
+    glm::dvec3 at(double mu) const;
+
+    /// The largest w of each channel: for bounds.
+    glm::dvec3 largest() const { return largest_; }
+
+    /// Integrals of P_l(mu) mu w(mu) dmu over [0, 1] times 2 pi, for l = 0, 1, 2: what a band of spherical
+    /// harmonics keeps (pi, 2 pi / 3 and pi / 4 for w = 1; the first is always pi).
+    const std::array<glm::dvec3, 3>& band_factors() const { return band_factors_; }
+
+  private:
+    static constexpr std::size_t intervals = 256;  ///< of the even table that `at` looks up
+    std::vector<glm::dvec3> table_;
+    glm::dvec3 largest_{0.0};
+    std::array<glm::dvec3, 3> band_factors_{};
+};
+
+}  // namespace skinglow

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+/// The sub-commands of `skinglow`, one file each. Adding one to the program: it says its options, and what it
+/// does when it is the one chosen. What it does reports errors by throwing; `exit_code` is for outcomes that
+/// are no error.
+namespace skinglow::cli {
+
+void add_weights_command(CLI::App& program);
+void add_lut_command(CLI::App& program);
+void add_rig_command(CLI::App& program);
+void add_compare_command(CLI::App& program, int& exit_code);
+#ifdef SKINGLOW_HAS_RAYS
+void add_thickness_command(CLI::App& program);
+void add_povray_command(CLI::App& program);
+#endif
+
+}  // namespace skinglow::cli

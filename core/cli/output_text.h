@@ -1,0 +1,24 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace skinglow::cli {
+
+/// A number for people: six significant digits.
+std::string short_number(double value);
+
+/// Rows of text in columns: the first two ranged left, the others right. All rows have as many cells as the
+/// first.
+void print_table(std::ostream& out, const std::vector<std::vector<std::string>>& rows);
+
+/// Tells on standard error what people should know about a file: "skinglow: file PATH: note: NOTE".
+void tell(const std::string& path, const std::string& note);
+
+nlohmann::ordered_json to_json(const glm::dvec3& value);
+void print_json(const nlohmann::ordered_json& value);
+
+}  // namespace skinglow::cli

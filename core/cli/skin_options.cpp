@@ -1,0 +1,68 @@
+#include "cli/skin_options.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "argument_check.h"
+
+namespace skinglow::cli {
+namespace {
+
+/// What the parameters of a Tissue are called on the command line.
+constexpr std::array<std::pair<std::string_view, const char*>, 7> option_names = {{
+    {"melanin_fraction", "--melanin"},
+    {"blood_fraction", "--blood-fraction"},
+    {"oxygen_saturation", "--oxygen"},
+    {"epidermal_thickness_mm", "--epidermis"},
+    {"scattering_scale", "--scattering"},
+    {"refractive_index", "--index"},
+    {"cartilage_fraction", "--cartilage"},
+}};
+
+std::string describe(const TissueParameter& parameter) {
+    std::string text(parameter.description);
+    text.append("; ").append(to_text(parameter.minimum)).append(" to ").append(to_text(parameter.maximum));
+    return text.append("; else the preset's");
+}
+
+}  // namespace
+
+void SkinOptions::add_to(CLI::App& command) {
+    std::string presets;
+    for (const TissuePreset& preset : tissue_presets()) {
+        presets.append(presets.empty() ? "" : ", ").append(preset.name);
+    }
+    preset_option_ = command.add_option("--skin", preset_, "Of mode physical: " + presets)
+                         ->type_name("PRESET")
+                         ->capture_default_str();
+    for (const TissueParameter& parameter : tissue_parameters()) {
+        const auto* named = std::find_if(option_names.begin(), option_names.end(),
+                                         [&](const auto& entry) { return entry.first == parameter.name; });
+        options_[parameter.name] =
+            command.add_option(named->second, values_[parameter.name], describe(parameter))
+                ->type_name(parameter.unit == "mm" ? "MM" : "X");
+    }
+    tolerance_option_ =
+        command
+            .add_option("--tolerance", tolerance_, "Largest error of mode physical, relative; 1e-6 to 0.1")
+            ->type_name("X")
+            ->capture_default_str();
+}
+
+bool SkinOptions::any_used() const {
+    std::size_t used = preset_option_->count() + tolerance_option_->count();
+    for (const auto& [name, option] : options_) used += option->count();
+    return used > 0;
+}
+
+Tissue SkinOptions::tissue() const {
+    Tissue tissue = tissue_preset(preset_).tissue;
+    for (const TissueParameter& parameter : tissue_parameters()) {
+        if (options_.at(parameter.name)->count() > 0) tissue.*parameter.field = values_.at(parameter.name);
+    }
+    validate(tissue);
+    return tissue;
+}
+
+}  // namespace skinglow::cli

@@ -1,0 +1,42 @@
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/mesh_options.h"
+#include "cli/output_text.h"
+
+namespace skinglow::cli {
+namespace {
+
+struct Options {
+    MeshOptions mesh;
+    std::string output;
+};
+
+void run(const Options& options) {
+    const TriangleMesh mesh = options.mesh.read();
+    std::vector<double> values = options.mesh.measure(mesh);
+    write_thickness(options.output, mesh, values, options.mesh.unit_mm());
+    std::sort(values.begin(), values.end());
+    std::cout << options.output << ": " << mesh.vertices.size() << " vertices, " << mesh.triangles.size()
+              << " triangles, thickness " << short_number(values.front()) << " to "
+              << short_number(values.back()) << " mm, median " << short_number(values[values.size() / 2])
+              << " mm\n";
+}
+
+}  // namespace
+
+void add_thickness_command(CLI::App& program) {
+    CLI::App* command =
+        program.add_subcommand("thickness", "How thick a body is at each vertex of its mesh, in mm");
+    const auto options = std::make_shared<Options>();
+    options->mesh.add_to(*command, "MESH");
+    command->add_option("-o,--output", options->output, "File to write: .csv or .ply")
+        ->type_name("FILE")
+        ->required();
+    command->footer("Example: skinglow thickness head.obj --unit 100 --group body -o thickness.csv");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace skinglow::cli

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <OpenImageIO/imageio.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// Opening images: what the readers of this folder share. Not for use outside of it.
+namespace skinglow {
+
+/// An image file open for reading, its size checked.
+class ImageInput {
+  public:
+    /// Throws FileError where the file is no image or too large (max_image_side, max_image_pixels).
+    explicit ImageInput(const std::filesystem::path& path);
+
+    const OIIO::ImageSpec& spec() const { return input_->spec(); }
+    const std::filesystem::path& path() const { return path_; }
+    /// Moves on to the next part of the file; false where there is none.
+    bool next_part();
+    /// Channels begin to end - 1 of the current part, interleaved, rows from the top.
+    /// Throws FileError where the file ends too early or is damaged, or a value is not finite.
+    std::vector<float> read_channels(int begin, int end);
+    /// The current part's header texts whose key begins with "skinglow:".
+    std::map<std::string, std::string> text() const;
+
+  private:
+    void check_size() const;
+
+    std::filesystem::path path_;
+    std::unique_ptr<OIIO::ImageInput> input_;
+    int part_ = 0;
+};
+
+}  // namespace skinglow

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <OpenImageIO/imageio.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+/// Writing images: what the writers of this folder share. Not for use outside of it.
+namespace skinglow {
+
+/// Writes the pixels, rows from the top, of the type that `spec.format` says, whole or not at all.
+/// `text` goes into the header. Throws FileError naming the file.
+void write_image(const std::filesystem::path& path, OIIO::ImageSpec spec,
+                 const std::map<std::string, std::string>& text, const void* pixels);
+
+}  // namespace skinglow

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace skinglow {
+
+/// Text in POV-Ray's scene description language. Numbers are the shortest that read back as the same double.
+class SdlText {
+  public:
+    SdlText& add(std::string_view text) {
+        text_ += text;
+        return *this;
+    }
+    SdlText& add(double value);
+    SdlText& add(std::uint32_t value);
+    SdlText& add(const glm::dvec2& value);  ///< <x,y>
+    SdlText& add(const glm::dvec3& value);  ///< <x,y,z>
+
+    void reserve(std::size_t characters) { text_.reserve(characters); }
+    std::string take() { return std::move(text_); }
+
+    /// Entry i of a list: a comma before all but the first, and line ends that keep lines readable.
+    template <typename Value>
+    SdlText& add_item(std::size_t i, std::size_t per_line, const Value& value) {
+        if (i > 0) text_ += ',';
+        text_ += i % per_line == 0 ? '\n' : ' ';
+        return add(value);
+    }
+
+  private:
+    std::string text_;
+};
+
+/// An identifier that POV-Ray cannot take for a word of its own: the prefix Skinglow_, then the name's
+/// letters and digits, everything else by its bytes in hexadecimal (_C3_). Different names give different
+/// identifiers.
+std::string sdl_identifier(std::string_view kind, std::string_view name);
+
+/// A string literal: quotes and backslashes escaped. Throws std::invalid_argument, naming the field, on
+/// control characters, which SDL strings cannot hold.
+std::string sdl_string(std::string_view field, std::string_view text);
+
+/// What stands after //: printable ASCII, anything else as ?; a backslash at the end cannot continue the
+/// line.
+std::string sdl_comment(std::string_view text);
+
+}  // namespace skinglow

@@ -1,0 +1,103 @@
+#include "slab/layer_operators.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "slab/fresnel.h"
+
+namespace skinglow::slab {
+
+ModeFactors mode_factors(const Eigen::VectorXd& decay, double thickness) {
+    // Below this a layer is transparent to rounding; its reciprocals must not overflow.
+    const double d = std::max(thickness, 1e-200);
+    ModeFactors factors{Eigen::VectorXd(decay.size()), Eigen::VectorXd(decay.size()),
+                        Eigen::VectorXd(decay.size())};
+    for (Eigen::Index i = 0; i < decay.size(); ++i) {
+        const double k = decay[i];
+        const double depth = k * d;
+        const double passed = std::exp(-depth);
+        const double reach = depth > 0 ? -std::expm1(-depth) / k : d;  // (1 - exp(-k d)) / k
+        factors.symmetric[i] = k * (k * reach) / (1 + passed);
+        factors.antisymmetric[i] = (1 + passed) / reach;
+        factors.through[i] = 2 * passed / (reach * (1 + passed));
+    }
+    return factors;
+}
+
+LayerOperators layer_operators(const LayerModes& modes, double thickness) {
+    const Eigen::Index n = modes.decay.size();
+    if (!modes.scatters) {
+        const Eigen::VectorXd passed = (-modes.decay.reverse() * thickness).array().exp();
+        return {Eigen::MatrixXd::Zero(n, n), passed.asDiagonal()};
+    }
+    // Y maps s to t at the faces: of the symmetric and of the antisymmetric part of the light. The outgoing
+    // light is (1 - Y)(1 + Y)^-1 of the incoming one; R and T are half the sum and half the difference, and
+    // the difference is formed from k / sinh(k d) and not by subtraction.
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(n, n);
+    const auto admittance = [&](const Eigen::VectorXd& factor) -> Eigen::MatrixXd {
+        return modes.dual * factor.asDiagonal() * modes.dual.transpose();
+    };
+    if (std::isinf(thickness)) {
+        const Eigen::MatrixXd inverse = (identity + admittance(modes.decay)).llt().solve(identity);
+        return {2 * inverse - identity, Eigen::MatrixXd::Zero(n, n)};
+    }
+    const ModeFactors factors = mode_factors(modes.decay, thickness);
+    const Eigen::MatrixXd symmetric = (identity + admittance(factors.symmetric)).llt().solve(identity);
+    const Eigen::MatrixXd antisymmetric =
+        (identity + admittance(factors.antisymmetric)).llt().solve(identity);
+    LayerOperators layer;
+    layer.reflection = symmetric + antisymmetric - identity;
+    layer.transmission = 2 * ((antisymmetric * modes.dual) * factors.through.asDiagonal()) *
+                         (modes.dual.transpose() * symmetric);
+    return layer;
+}
+
+Eigen::VectorXd boundary_reflectance(const StreamGrid& grid, double n_a, double n_b) {
+    const int common = std::min(grid.count(n_a), grid.count(n_b));
+    Eigen::VectorXd reflectance(common);
+    for (int i = 0; i < common; ++i) {
+        reflectance[i] = fresnel_reflectance(n_a, grid.cosine(i, n_a), n_b, grid.cosine(i, n_b));
+    }
+    return reflectance;
+}
+
+Crossing cross_boundary(const StreamGrid& grid, double n_from, double n_to,
+                        const Eigen::MatrixXd& reflection_below) {
+    const Eigen::Index from = grid.count(n_from);
+    const Eigen::Index to = grid.count(n_to);
+    const Eigen::Index common = std::min(from, to);
+    const Eigen::VectorXd r = boundary_reflectance(grid, n_from, n_to);
+    const Eigen::VectorXd passed = Eigen::VectorXd::Ones(common) - r;
+    Crossing crossing{Eigen::MatrixXd::Zero(from, from), Eigen::MatrixXd::Zero(to, from)};
+    crossing.reflection.diagonal().setOnes();  // total reflection where there is no stream on the other side
+    crossing.reflection.diagonal().head(common) = r;
+    crossing.transmission.topLeftCorner(common, common) = passed.asDiagonal();
+    if (reflection_below.size() == 0) return crossing;
+
+    // Light is sent back and forth between the boundary and what lies below: (1 - r R)^-1. A stream that is
+    // shut in on both sides of an empty layer holds no light, but would make this singular: a total
+    // reflection is one rounding short of 1.
+    constexpr double total = 1 - std::numeric_limits<double>::epsilon() / 2;
+    Eigen::VectorXd from_below = Eigen::VectorXd::Constant(to, total);
+    from_below.head(common) = r;
+    const Eigen::MatrixXd system =
+        Eigen::MatrixXd::Identity(to, to) - from_below.asDiagonal() * reflection_below;
+    crossing.transmission = system.partialPivLu().solve(crossing.transmission).eval();
+    crossing.reflection.topRows(common) +=
+        passed.asDiagonal() * (reflection_below.topRows(common) * crossing.transmission);
+    return crossing;
+}
+
+Crossing cross_layer(const LayerOperators& layer, const Eigen::MatrixXd& reflection_below) {
+    const Eigen::Index n = layer.reflection.rows();
+    const Eigen::MatrixXd system = Eigen::MatrixXd::Identity(n, n) - layer.reflection * reflection_below;
+    Crossing crossing;
+    crossing.transmission = system.partialPivLu().solve(layer.transmission);
+    crossing.reflection = layer.reflection + layer.transmission * (reflection_below * crossing.transmission);
+    return crossing;
+}
+
+}  // namespace skinglow::slab

@@ -1,0 +1,54 @@
+#include "slab/quadrature.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstddef>
+
+namespace skinglow::slab {
+namespace {
+
+// Off-diagonal of the Jacobi matrix of the Legendre polynomials on [-1, 1].
+Eigen::VectorXd legendre_recurrence(int count) {
+    Eigen::VectorXd off(count - 1);
+    for (int i = 1; i < count; ++i) off[i - 1] = i / std::sqrt(4.0 * i * i - 1);
+    return off;
+}
+
+// Golub and Welsch (1969, Math Comp 23:221): nodes are the eigenvalues, weights the squared first components.
+Quadrature rule_of_jacobi_matrix(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& off_diagonal) {
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+    solver.computeFromTridiagonal(diagonal, off_diagonal);
+    Quadrature rule;
+    for (Eigen::Index i = 0; i < diagonal.size(); ++i) {
+        rule.node.push_back(0.5 * (1 + solver.eigenvalues()[i]));
+        rule.weight.push_back(solver.eigenvectors()(0, i) * solver.eigenvectors()(0, i));
+    }
+    return rule;
+}
+
+}  // namespace
+
+Quadrature gauss_rule(int count) {
+    return rule_of_jacobi_matrix(Eigen::VectorXd::Zero(count), legendre_recurrence(count));
+}
+
+Quadrature radau_rule(int count, FixedNode end) {
+    if (count == 1) return {{end == FixedNode::at_one ? 1.0 : 0.0}, {1.0}};
+    // Golub (1973, SIAM Review 15:318): the last diagonal entry is chosen so that the end is an eigenvalue.
+    const Eigen::VectorXd off = legendre_recurrence(count);
+    double ratio = 1;  // p_k(1) / p_(k-1)(1) of the monic polynomials
+    for (int k = 2; k <= count - 1; ++k) ratio = 1 - off[k - 2] * off[k - 2] / ratio;
+    Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(count);
+    diagonal[count - 1] = 1 - off[count - 2] * off[count - 2] / ratio;
+    Quadrature rule = rule_of_jacobi_matrix(diagonal, off);
+    rule.node.back() = 1;
+    if (end == FixedNode::at_one) return rule;
+    Quadrature mirrored;
+    for (std::size_t i = rule.node.size(); i-- > 0;) {
+        mirrored.node.push_back(1 - rule.node[i]);
+        mirrored.weight.push_back(rule.weight[i]);
+    }
+    return mirrored;
+}
+
+}  // namespace skinglow::slab

@@ -1,0 +1,216 @@
+#include "surface_irradiance.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "argument_check.h"
+#include "lamp_kernels.h"
+#include "prepared_light.h"
+
+namespace skinglow {
+namespace {
+
+/// Beyond this, squares of squares overflow: such places and lamps are worked out one by one.
+constexpr double widest_vectorised = 1e70;
+
+struct Lamp {
+    PreparedLight light;
+    glm::dvec3 strength;  ///< power * colour
+    bool vectorised;
+};
+
+double reach_of(const glm::dvec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+std::vector<Lamp> prepare(std::span<const Light> lights) {
+    std::vector<Lamp> lamps;
+    for (const Light& light : lights) {
+        validate(light);
+        PreparedLight prepared(light);
+        if (!is_on(light) || prepared.dark()) continue;
+        const double reach = std::max({reach_of(light.position), light.radius, light.size_x, light.size_y});
+        const bool tiny = light.kind == LightKind::area && std::max(light.size_x, light.size_y) < 1e-9;
+        const glm::dvec3 strength = light.color * light.power;
+        lamps.push_back({prepared, strength, reach < widest_vectorised && !tiny});
+    }
+    return lamps;
+}
+
+/// One thread's work on one block after another.
+class BlockWorker {
+  public:
+    BlockWorker(std::span<const Lamp> lamps, const SurfaceOptions& options)
+        : lamps_(lamps), options_(options) {}
+
+    void work(std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals,
+              std::span<glm::dvec3> sums) {
+        load(points, normals);
+        sum_ = {};
+        for (const Lamp& lamp : lamps_) add(lamp);
+        for (std::size_t i = 0; i < places_.count; ++i) {
+            sums[i] = {sum_.red[i], sum_.green[i], sum_.blue[i]};
+            if (options_.environment == nullptr || normal(i) == glm::dvec3(0.0)) continue;
+            sums[i] += options_.environment->irradiance(normal(i), options_.angular_weight);
+        }
+    }
+
+  private:
+    glm::dvec3 place(std::size_t i) const { return {places_.x[i], places_.y[i], places_.z[i]}; }
+    glm::dvec3 normal(std::size_t i) const { return {places_.nx[i], places_.ny[i], places_.nz[i]}; }
+
+    void load(std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals) {
+        places_.count = points.size();
+        double reach = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            places_.x[i] = points[i].x;
+            places_.y[i] = points[i].y;
+            places_.z[i] = points[i].z;
+            places_.nx[i] = normals[i].x;
+            places_.ny[i] = normals[i].y;
+            places_.nz[i] = normals[i].z;
+            reach = std::max(reach, reach_of(points[i]));
+        }
+        near_ = reach < widest_vectorised;
+        normalise(places_);
+    }
+
+    void add(const Lamp& lamp) {
+        if (near_ && lamp.vectorised) {
+            block_irradiance(lamp.light, places_, one_);
+        } else {
+            one_.special.fill(1.0);
+        }
+        if (any_special(one_, places_.count)) ask_one_by_one(lamp);
+        if (options_.angular_weight != nullptr) return add_weighted(lamp);
+        add_block(one_, lamp.strength, places_.count, sum_);
+    }
+
+    void ask_one_by_one(const Lamp& lamp) {
+        for (std::size_t i = 0; i < places_.count; ++i) {
+            if (one_.special[i] == 0.0) continue;
+            const glm::dvec3 n = normal(i);
+            one_.value[i] =
+                n == glm::dvec3(0.0) ? 0.0 : lamp.light.irradiance(place(i), n, options_.area_tolerance);
+            one_.cosine[i] = glm::dot(lamp.light.to_light(place(i)), n);
+        }
+    }
+
+    void add_weighted(const Lamp& lamp) {
+        for (std::size_t i = 0; i < places_.count; ++i) {
+            if (one_.value[i] == 0.0) continue;
+            const glm::dvec3 term =
+                lamp.strength * one_.value[i] * options_.angular_weight->at(one_.cosine[i]);
+            sum_.red[i] += term.r;
+            sum_.green[i] += term.g;
+            sum_.blue[i] += term.b;
+        }
+    }
+
+    std::span<const Lamp> lamps_;
+    SurfaceOptions options_;
+    bool near_ = true;
+    PlaceBlock places_{};
+    BlockIrradiance one_{};
+    BlockSum sum_{};
+};
+
+std::size_t thread_count(int wanted, std::size_t blocks, std::size_t lamps) {
+    // A thread costs some 20 us to start, a block and lamp about 0.5 us.
+    const std::size_t worth = blocks * std::max<std::size_t>(lamps, 1) / 256 + 1;
+    const std::size_t allowed = wanted > 0 ? static_cast<std::size_t>(wanted)
+                                           : std::max<std::size_t>(1, std::thread::hardware_concurrency());
+    return std::min({allowed, worth, std::max<std::size_t>(1, blocks)});
+}
+
+/// Without leaving early: so the loop is vectorised.
+bool all_finite(std::span<const glm::dvec3> values) {
+    constexpr double most = std::numeric_limits<double>::max();
+    int bad = 0;
+    for (const glm::dvec3& v : values) {
+        bad |= static_cast<int>(!(std::abs(v.x) <= most)) | static_cast<int>(!(std::abs(v.y) <= most)) |
+               static_cast<int>(!(std::abs(v.z) <= most));
+    }
+    return bad == 0;
+}
+
+void validate_places(std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals) {
+    if (points.size() != normals.size()) {
+        refuse_argument("number of normals", std::to_string(normals.size()),
+                        "as many as points (" + std::to_string(points.size()) + ")");
+    }
+    const auto validate_all = [](const char* name, std::span<const glm::dvec3> values) {
+        if (all_finite(values)) return;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const glm::dvec3& v = values[i];
+            if (std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z)) continue;
+            refuse_argument(std::string(name) + "[" + std::to_string(i) + "]", to_text(v),
+                            "three finite numbers");
+        }
+    };
+    validate_all("points", points);
+    validate_all("normals", normals);
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> surface_irradiance(std::span<const Light> lights, std::span<const glm::dvec3> points,
+                                           std::span<const glm::dvec3> normals,
+                                           const SurfaceOptions& options) {
+    validate_places(points, normals);
+    require_positive("area_tolerance", options.area_tolerance);
+    const std::vector<Lamp> lamps = prepare(lights);
+    std::vector<glm::dvec3> sums(points.size());
+    const std::size_t blocks = (points.size() + PlaceBlock::capacity - 1) / PlaceBlock::capacity;
+    std::atomic<std::size_t> next = 0;
+    const auto take_blocks = [&] {
+        const auto worker = std::make_unique<BlockWorker>(lamps, options);
+        for (std::size_t block = next++; block < blocks; block = next++) {
+            const std::size_t begin = block * PlaceBlock::capacity;
+            const std::size_t count = std::min(PlaceBlock::capacity, points.size() - begin);
+            worker->work(points.subspan(begin, count), normals.subspan(begin, count),
+                         std::span(sums).subspan(begin, count));
+        }
+    };
+    std::vector<std::thread> helpers;
+    for (std::size_t i = 1; i < thread_count(options.threads, blocks, lamps.size()); ++i)
+        helpers.emplace_back(take_blocks);
+    take_blocks();
+    for (std::thread& helper : helpers) helper.join();
+    if (all_finite(sums)) return sums;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        require_finite("irradiance at points[" + std::to_string(i) + "]", sums[i]);
+    }
+    return sums;
+}
+
+std::vector<glm::dvec3> far_side_irradiance(std::span<const Light> lights,
+                                            std::span<const glm::dvec3> vertices,
+                                            std::span<const glm::dvec3> normals,
+                                            std::span<const double> depth, const SurfaceOptions& options) {
+    validate_places(vertices, normals);
+    if (depth.size() != vertices.size() && depth.size() != 1) {
+        refuse_argument("number of depths", std::to_string(depth.size()),
+                        "1 or as many as vertices (" + std::to_string(vertices.size()) + ")");
+    }
+    for (std::size_t i = 0; i < depth.size(); ++i) {
+        // The name is only put together where it is needed: this is a large part of the time otherwise.
+        if (!(depth[i] >= 0.0 && std::isfinite(depth[i])))
+            require_not_negative("depth[" + std::to_string(i) + "]", depth[i]);
+    }
+    std::vector<glm::dvec3> points(vertices.size());
+    std::vector<glm::dvec3> facing(vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (normals[i] != glm::dvec3(0.0)) facing[i] = -unit(normals[i]);
+        points[i] = vertices[i] + facing[i] * (depth.size() == 1 ? depth[0] : depth[i]);
+    }
+    return surface_irradiance(lights, points, facing, options);
+}
+
+}  // namespace skinglow

@@ -1,0 +1,224 @@
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "argument_check.h"
+#include "environment.h"
+#include "irradiance.h"
+#include "light_units.h"
+#include "numpy_conversion.h"
+#include "prepared_light.h"
+#include "surface_irradiance.h"
+
+namespace py = pybind11;
+using namespace py::literals;
+using namespace skinglow;
+
+namespace {
+
+void bind_object_weights(py::module_& m) {
+    m.def(
+        "irradiances",
+        [](const std::vector<Light>& lights, py::handle point, double tolerance) {
+            return numpy::from_vec3s(object_irradiances(lights, numpy::to_vec3(point, "point"), tolerance));
+        },
+        "lights"_a, "point"_a, "tolerance"_a = default_area_tolerance,
+        R"(What each light brings to a point on a surface that faces it, shape (n, 3), W/m^2, linear Rec.709.
+
+Units are Blender's, a unit of length is a metre: a point light of P watts gives P / (4 pi d^2), a spot the same times
+its cone, a sun P, an area light the irradiance of its shape at radiance P / (pi A). Lights that are off give zeros,
+negative power takes light away. No light is nearer than 1e-6.
+point      (3,), world
+tolerance  relative, of the integrals for elliptic lamps, above 0. Raises ValueError naming what is wrong.)");
+    m.def(
+        "irradiance",
+        [](const std::vector<Light>& lights, py::handle point, double tolerance) {
+            return numpy::from_vec3(object_irradiance(lights, numpy::to_vec3(point, "point"), tolerance));
+        },
+        "lights"_a, "point"_a, "tolerance"_a = default_area_tolerance,
+        R"(The sum of irradiances, shape (3,): E of mode `physical` for a whole object; zeros without lights.
+
+The order of the lights does not matter beyond the last bits: the sum is compensated.)");
+}
+
+using Vec3s = std::span<const glm::dvec3>;
+
+/// (n, 3) doubles as the core's vectors, without a copy.
+Vec3s view_of_vec3s(const numpy::Array& array, std::string_view name) {
+    if (array.ndim() != 2 || array.shape(1) != 3) {
+        refuse_argument(name, "of shape " + numpy::shape_text(array), "shape (n, 3)");
+    }
+    return {reinterpret_cast<const glm::dvec3*>(array.data()), static_cast<std::size_t>(array.shape(0))};
+}
+
+std::span<const double> view_of_doubles(const numpy::Array& array, std::string_view name) {
+    if (array.ndim() > 1)
+        refuse_argument(name, "of shape " + numpy::shape_text(array), "a number or shape (n,)");
+    return {array.data(), static_cast<std::size_t>(array.size())};
+}
+
+AngularWeight make_angular_weight(py::handle mu, py::handle transmittance) {
+    const numpy::Array cosines = numpy::to_array(mu, "mu");
+    const numpy::Array values = numpy::to_array(transmittance, "transmittance");
+    if (values.ndim() == 2) return {view_of_doubles(cosines, "mu"), view_of_vec3s(values, "transmittance")};
+    return {view_of_doubles(cosines, "mu"), view_of_doubles(values, "transmittance")};
+}
+
+py::array angular_weight_at(const AngularWeight& self, py::handle mu) {
+    const numpy::Array cosines = numpy::to_array(mu, "mu");
+    std::vector<glm::dvec3> weights;
+    for (const double x : view_of_doubles(cosines, "mu")) weights.push_back(self.at(require_finite("mu", x)));
+    return numpy::from_vec3s(std::move(weights));
+}
+
+Environment make_environment(py::handle radiance) {
+    const numpy::Array values = numpy::to_array(radiance, "radiance");
+    if (values.ndim() == 1) return Environment(numpy::to_vec3(radiance, "radiance"));
+    if (values.ndim() == 2 && values.shape(0) == 9 && values.shape(1) == 3) {
+        std::array<glm::dvec3, 9> coefficients;
+        const Vec3s rows = view_of_vec3s(values, "radiance");
+        std::copy(rows.begin(), rows.end(), coefficients.begin());
+        return Environment(coefficients);
+    }
+    if (values.ndim() != 3 || values.shape(2) != 3) {
+        refuse_argument("radiance", "of shape " + numpy::shape_text(values),
+                        "shape (3,), (9, 3) or (height, width, 3)");
+    }
+    const auto height = static_cast<std::size_t>(values.shape(0));
+    const auto width = static_cast<std::size_t>(values.shape(1));
+    return Environment::from_equirectangular(
+        {reinterpret_cast<const glm::dvec3*>(values.data()), height * width}, width, height);
+}
+
+py::array environment_irradiance(const Environment& self, py::handle normals,
+                                 const AngularWeight* angular_weight) {
+    const numpy::Array array = numpy::to_array(normals, "normals");
+    std::vector<glm::dvec3> result;
+    for (const glm::dvec3& n : view_of_vec3s(array, "normals")) {
+        require_finite("normals", n);
+        result.push_back(n == glm::dvec3(0.0) ? n : self.irradiance(unit(n), angular_weight));
+    }
+    return numpy::from_vec3s(std::move(result));
+}
+
+void bind_angles_and_environment(py::module_& m) {
+    py::class_<AngularWeight>(m, "AngularWeight",
+                              R"(How much more light from one angle comes through than light from everywhere.
+
+w(mu) = T(mu) / (2 integral of T(mu) mu dmu), mu the cosine to the normal: diffuse light counts once, by definition.
+mu             (n,) ascending, 0 to 1
+transmittance  (n,) or (n, 3) for R, G, B, 0 or more, as slab(...) gives it; a common factor drops out
+Raises ValueError naming the entry.)")
+        .def(py::init(&make_angular_weight), "mu"_a, "transmittance"_a)
+        .def("at", &angular_weight_at, "mu"_a, "w at cosines (n,) or one, clamped to 0 to 1; shape (n, 3).");
+    py::class_<Environment>(
+        m, "Environment",
+        R"(The world's light as nine spherical-harmonic coefficients (Ramamoorthi and Hanrahan 2001).
+
+radiance  (3,) constant, W/(m^2 sr), 0 or more; or (9, 3) coefficients, orthonormal, order l, m; or an equirectangular
+          image (height, width, 3), row 0 looking up to +z, columns as in Blender (the middle looks along +x, a quarter
+          from the left along +y). Blender's own pixels start at the bottom: turn them over.)")
+        .def(py::init(&make_environment), "radiance"_a)
+        .def("irradiance", &environment_irradiance, "normals"_a, "angular_weight"_a = py::none(),
+             "W/m^2 on surfaces along normals (n, 3), any length (0 receives nothing); not below 0. Shape "
+             "(n, 3).")
+        .def_property_readonly(
+            "mean_irradiance",
+            [](const Environment& self) { return numpy::from_vec3(self.mean_irradiance()); },
+            "pi times the mean radiance, (3,): the part of the environment in the weight of a whole object.")
+        .def_property_readonly(
+            "coefficients",
+            [](const Environment& self) {
+                return numpy::from_vec3s({self.coefficients().begin(), self.coefficients().end()});
+            },
+            "(9, 3), of the radiance.");
+}
+
+SurfaceOptions surface_options(double tolerance, const AngularWeight* angular_weight,
+                               const Environment* environment, int threads) {
+    return {tolerance, angular_weight, environment, threads};
+}
+
+void bind_surface_weights(py::module_& m) {
+    m.def(
+        "surface_irradiance",
+        [](const std::vector<Light>& lights, py::handle points, py::handle normals,
+           const AngularWeight* angular_weight, const Environment* environment, double tolerance,
+           int threads) {
+            const numpy::Array places = numpy::to_array(points, "points");
+            const numpy::Array directions = numpy::to_array(normals, "normals");
+            const Vec3s p = view_of_vec3s(places, "points");
+            const Vec3s n = view_of_vec3s(directions, "normals");
+            std::vector<glm::dvec3> result;
+            {
+                const py::gil_scoped_release release;
+                result = surface_irradiance(lights, p, n,
+                                            surface_options(tolerance, angular_weight, environment, threads));
+            }
+            return numpy::from_vec3s(std::move(result));
+        },
+        "lights"_a, "points"_a, "normals"_a, py::kw_only(), "angular_weight"_a = py::none(),
+        "environment"_a = py::none(), "tolerance"_a = default_area_tolerance, "threads"_a = 0,
+        R"(Irradiance at places that each face along a normal, with cosine and horizon, (n, 3), W/m^2, linear Rec.709.
+
+points, normals  (n, 3), finite; normals of any length, (0, 0, 0) receives nothing
+tolerance        relative, of the integrals for elliptic lamps and spreads
+threads          0: one for each processor. Raises ValueError naming the entry.)");
+    m.def(
+        "far_side_irradiance",
+        [](const std::vector<Light>& lights, py::handle vertices, py::handle normals, py::handle depth,
+           const AngularWeight* angular_weight, const Environment* environment, double tolerance,
+           int threads) {
+            const numpy::Array places = numpy::to_array(vertices, "vertices");
+            const numpy::Array directions = numpy::to_array(normals, "normals");
+            const numpy::Array depths = numpy::to_array(depth, "depth");
+            const Vec3s p = view_of_vec3s(places, "vertices");
+            const Vec3s n = view_of_vec3s(directions, "normals");
+            const std::span<const double> d = view_of_doubles(depths, "depth");
+            std::vector<glm::dvec3> result;
+            {
+                const py::gil_scoped_release release;
+                result = far_side_irradiance(
+                    lights, p, n, d, surface_options(tolerance, angular_weight, environment, threads));
+            }
+            return numpy::from_vec3s(std::move(result));
+        },
+        "lights"_a, "vertices"_a, "normals"_a, "depth"_a, py::kw_only(), "angular_weight"_a = py::none(),
+        "environment"_a = py::none(), "tolerance"_a = default_area_tolerance, "threads"_a = 0,
+        R"(surface_irradiance on the far side of skin: at vertex - depth * normal, facing along -normal; shape (n, 3).
+
+depth  a number or (n,), in the scene's length unit (not mm), 0 or more)");
+}
+
+void bind_units(py::module_& m) {
+    m.def("exposure_factor", &exposure_factor, "stops"_a,
+          "2^stops: the factor on a light's power for its exposure.");
+    m.def("unnormalised_power_factor", &unnormalised_power_factor, "light"_a,
+          "The factor on the power of a light whose `normalize` is off: the area of what glows, scene unit "
+          "squared\n"
+          "(area light: its area; point and spot: 4 pi r^2; sun: pi sin^2(angle / 2)).");
+    m.def(
+        "black_body_colour", [](double kelvin) { return numpy::from_vec3(black_body_colour(kelvin)); },
+        "kelvin"_a,
+        "Colour of a black body, (3,) linear Rec.709 of luminance 1, none below 0; 800 to 20000 K.");
+    m.attr("LEGACY_AREA_POWER_FACTOR") = legacy_area_power_factor;
+    m.def("legacy_sun_power_factor", &legacy_sun_power_factor, "angle"_a,
+          "2 c / (1 + c), c = cos(angle / 2): the factor on the power of a sun in Blender 3.4; angle in "
+          "radians.");
+}
+
+}  // namespace
+
+void bind_light_choice(py::module_& m);
+
+void bind_irradiance(py::module_& m) {
+    bind_angles_and_environment(m);
+    bind_object_weights(m);
+    bind_surface_weights(m);
+    bind_units(m);
+    bind_light_choice(m);
+}

@@ -1,0 +1,92 @@
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "light_bounds.h"
+#include "light_culling.h"
+#include "light_report.h"
+#include "numpy_conversion.h"
+
+namespace py = pybind11;
+using namespace py::literals;
+using namespace skinglow;
+
+namespace {
+
+Box to_box(py::handle least, py::handle most) {
+    return {numpy::to_vec3(least, "box_min"), numpy::to_vec3(most, "box_max")};
+}
+
+py::dict to_dict(const CullingResult& result) {
+    py::list dropped;
+    for (const DroppedLights& group : result.dropped) {
+        dropped.append(py::dict("lights"_a = group.lights, "reason"_a = to_text(group.reason),
+                                "bound"_a = numpy::from_vec3(group.bound)));
+    }
+    return py::dict("kept"_a = result.kept, "dropped"_a = dropped,
+                    "bound"_a = numpy::from_vec3(result.bound));
+}
+
+py::list report_as_dicts(const std::vector<Light>& lights, py::handle point, py::handle normal,
+                         const std::vector<bool>& occluded,
+                         const std::optional<std::vector<std::size_t>>& kept) {
+    std::optional<glm::dvec3> facing;
+    if (!normal.is_none()) facing = numpy::to_vec3(normal, "normal");
+    py::list entries;
+    for (const LightReportEntry& e :
+         light_report(lights, numpy::to_vec3(point, "point"), facing, occluded, kept)) {
+        entries.append(py::dict("index"_a = e.index, "name"_a = e.name, "kind"_a = to_text(e.kind),
+                                "distance"_a = e.distance, "axis_angle"_a = e.axis_angle,
+                                "normal_angle"_a = e.normal_angle, "weight"_a = numpy::from_vec3(e.weight),
+                                "share"_a = e.share, "state"_a = to_text(e.state)));
+    }
+    return entries;
+}
+
+}  // namespace
+
+void bind_light_choice(py::module_& m) {
+    py::class_<LightTree>(
+        m, "LightTree", R"(Lights in a tree, so that for each object only those are looked at that may matter.
+
+lights  list of Light; indices in results are places in it. Make it anew when a light changes.)")
+        .def(py::init([](const std::vector<Light>& lights) { return LightTree(lights); }), "lights"_a)
+        .def("__len__", &LightTree::size)
+        .def(
+            "cull",
+            [](const LightTree& self, py::handle box_min, py::handle box_max, double tolerance) {
+                return to_dict(self.cull(to_box(box_min, box_max), tolerance));
+            },
+            "box_min"_a, "box_max"_a, "tolerance"_a,
+            R"(Leaves out lights whose sum changes no channel by more than tolerance (W/m^2), proven for every point of the
+box and every normal there. A tolerance of 0 leaves out only what gives nothing.
+
+Returns a dict: kept (indices, ascending), dropped (dicts of lights, reason, bound; reason is "off", "unreachable" or
+"negligible"), bound (3,), the sum of theirs. Raises ValueError naming what is wrong.)");
+    m.def(
+        "merge_identical", [](const std::vector<Light>& lights) { return merge_identical(lights); },
+        "lights"_a,
+        "Lights with the same place, shape and direction as one each, their light added; those that are off "
+        "go.");
+    m.def(
+        "object_irradiance_error",
+        [](const std::vector<Light>& lights, py::handle point, py::handle box_min, py::handle box_max) {
+            return numpy::from_vec3(
+                object_irradiance_error(lights, numpy::to_vec3(point, "point"), to_box(box_min, box_max)));
+        },
+        "lights"_a, "point"_a, "box_min"_a, "box_max"_a,
+        R"(Upper bound (3,), W/m^2, of how far irradiance(lights, p) is from irradiance(lights, point) for p in the box:
+what one weight for the whole object may be off. The receiver's cosine, which it leaves out anyway, is not in it.)");
+    m.def("light_report", &report_as_dicts, "lights"_a, "point"_a, "normal"_a = py::none(),
+          "occluded"_a = std::vector<bool>{}, "kept"_a = py::none(),
+          R"(What each light does for a point, in mode `physical`: a list of dicts, one per light.
+
+index, name, kind, distance (0 for a sun), axis_angle (from the light's axis, radians), normal_angle (from the normal, or
+None), weight (3,) W/m^2, share of the luminance of all (0 to 1), and state: "shines", or why it gives nothing: "hidden",
+"zero power", "black", "no width", "occluded", "culled", "behind lamp", "outside cone", "behind" or "too weak".
+normal    None: a surface that faces each light; else (3,), and the weight has its cosine
+occluded  empty, or one bool per light; kept  None, or the indices that culling kept)");
+}

@@ -1,0 +1,87 @@
+"""Thickness of a mesh. Embree is loaded by the first call and not before."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import sys
+from collections.abc import Callable
+from functools import cache
+from types import ModuleType
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["thickness"]
+
+
+@cache
+def _rays() -> ModuleType:
+    """Import skinglow._rays so that its Embree answers its calls.
+
+    Blender's full programs load an Embree for everybody. Version 4 has the names of version 3 but not
+    its calling conventions, and the first one loaded takes all calls: rays then miss without a word.
+    RTLD_DEEPBIND makes the module look in its own libraries first.
+    """
+    deep = getattr(os, "RTLD_DEEPBIND", 0)
+    if not deep or _is_sanitized():
+        return importlib.import_module("skinglow._rays")
+    flags = sys.getdlopenflags()
+    sys.setdlopenflags(os.RTLD_NOW | os.RTLD_LOCAL | deep)
+    try:
+        return importlib.import_module("skinglow._rays")
+    finally:
+        sys.setdlopenflags(flags)
+
+
+def _is_sanitized() -> bool:
+    """Sanitizers put functions of their own before everybody's and refuse RTLD_DEEPBIND."""
+    return "libasan" in os.environ.get("LD_PRELOAD", "")
+
+
+def thickness(
+    vertices: ArrayLike,
+    triangles: ArrayLike,
+    unit_mm: float = 1.0,
+    rays: int | None = None,
+    *,
+    cone_half_angle: float | None = None,
+    min_openness: float = 0.0,
+    threads: int = 0,
+    progress: Callable[[float], bool] | None = None,
+) -> NDArray[np.float64]:
+    """How thick a body is at each vertex, (n,) float64, mm.
+
+    The diameter of the ball that lies against the surface at the vertex from within and against the
+    far side, by a cone of inward rays: a slab's thickness, a sphere's diameter, a shell's wall. A
+    quarter of the rays may be misled by a crease. The same on any number of threads.
+
+    vertices         (n, 3), finite, in units of unit_mm
+    triangles        (m, 3), whole numbers from 0 to below n, counter-clockwise from outside; a mesh
+                     that encloses a negative volume is turned over. At least one, unless n is 0.
+    unit_mm          length of one unit of the vertices, mm, above 0
+    rays             per vertex, 1 to 65536; None: the measured default (docs/accuracy.md)
+    cone_half_angle  between axis and rim, radians, 0 to 1.5; None: pi/6
+    min_openness     smallest share of an even sky's light, 0 to 1, that a far side must get for a ray to
+                     end there; what gets less (mouth, eye sockets) is dark, and passed as if it were
+                     flesh. 0: every way out counts, also into a closed cavity
+    threads          0: one for each processor
+    progress         called on this thread with the share done, ascending to 1; returns whether to go
+                     on. If not, RuntimeError (skinglow._rays.ThicknessCancelled) is raised.
+
+    Vertices at one position get one value; triangles without area are ignored. Where no ray finds a
+    way out (a plane, an open hem, a vertex without triangles) the value is the bounding box's
+    diagonal: thicker than anything in the mesh. Never NaN, infinite or negative.
+    Raises ValueError naming the argument, the value and what is allowed.
+    """
+    module = _rays()
+    return module.thickness(
+        vertices,
+        triangles,
+        unit_mm,
+        module.DEFAULT_RAYS if rays is None else rays,
+        module.DEFAULT_CONE_HALF_ANGLE if cone_half_angle is None else cone_half_angle,
+        min_openness,
+        threads,
+        progress,
+    )

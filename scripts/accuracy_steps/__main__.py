@@ -1,0 +1,130 @@
+"""Measures, draws, and fills docs/accuracy.md. scripts/accuracy sets up first."""
+
+from __future__ import annotations
+
+import platform
+from pathlib import Path
+
+import lamps
+import numpy as np
+import page
+import plots
+import skinglow as sg
+import studies
+import task
+
+PROJECT = Path(__file__).resolve().parents[2]
+IMAGES = PROJECT / "docs" / "images"
+DEPTHS_MM = (0.3, 1.0, 3.0, 6.0, 8.0)
+
+
+def number(value: float) -> str:
+    return f"{value:.1e}" if value < 0.01 else f"{value:.2g}"
+
+
+def percent(value: float) -> str:
+    return f"{100 * value:.2g} %" if value < 1 else f"{100 * value:.0f} %"
+
+
+def say(what: str) -> None:
+    print(f"[accuracy] {what}", flush=True)
+
+
+def point_rows(points: list[studies.Point]) -> list[list[str]]:
+    return [[p.label, f"{p.time_ms:.2f}", number(p.error)] for p in points]
+
+
+def solver_section() -> str:
+    say("streams")
+    series = {name: studies.streams(tissue) for name, tissue in task.SKINS.items()}
+    plots.solver(IMAGES / "accuracy_solver.png", series)
+    one, three = series.values()
+    say("streams on random skins")
+    worst = studies.streams_on_random_skins()
+    rows = [
+        [a.label, f"{a.time_ms:.2f}", number(a.error), f"{b.time_ms:.2f}", number(b.error), number(worst[int(a.label)])]
+        for a, b in zip(one, three, strict=True)
+    ]
+    heading = ["streams", "one layer, ms", "error", "three layers, ms", "error", "worst table of 60 random skins"]
+    return page.table(heading, rows)
+
+
+def table_section() -> str:
+    say("nodes, wavelengths, tolerances")
+    nodes = studies.nodes(task.THREE_LAYERS)
+    wavelengths = studies.wavelengths(task.THREE_LAYERS)
+    whole = studies.tolerances(task.THREE_LAYERS)
+    plots.table(IMAGES / "accuracy_table.png", nodes, wavelengths, whole)
+    _, brute_ms = task.timed(lambda: sg.reference_lut(task.THREE_LAYERS, 256, 12.0, 16))
+    rows = [
+        [f"{tolerance:g}", p.label, f"{p.time_ms:.2f}", number(p.estimate), number(p.error)]
+        for tolerance, p in zip(studies.TOLERANCES, whole, strict=True)
+    ]
+    rows.append(["-", "16 streams, 256 thicknesses, 81 wavelengths (everything)", f"{brute_ms:.1f}", "-", "-"])
+    parts = [
+        page.table(["tolerance", "chosen", "ms", "error estimated", "error measured"], rows),
+        page.table(["thicknesses per stretch", "ms", "error"], point_rows(nodes)),
+        page.table(["wavelengths every", "ms", "error"], point_rows(wavelengths)),
+    ]
+    return "\n\n".join(parts)
+
+
+def estimate_section() -> str:
+    say("estimates on random skins")
+    points = studies.estimates()
+    plots.estimate(IMAGES / "accuracy_estimate.png", points)
+    ratios = np.array([p.error / p.estimate for p in points])
+    return (
+        f"Of {len(points)} random skins {int(np.sum(ratios > 1))} had an error above the estimate; measured over "
+        f"estimated was {np.median(ratios):.2f} in the median and {ratios.max():.2f} at most."
+    )
+
+
+def methods_section() -> str:
+    say("other methods")
+    panels = [studies.red_curves(name, tissue) for name, tissue in task.SKINS.items()]
+    plots.methods(IMAGES / "accuracy_methods.png", panels)
+    parts = []
+    for panel, tissue in zip(panels, task.SKINS.values(), strict=True):
+        exact = panel.curves["solved"]
+        at = [int(np.argmin(np.abs(task.THICKNESS_MM - d))) for d in DEPTHS_MM]
+        rows = [
+            [name, *(f"{curve[i] / exact[i]:.2g}" for i in at)]
+            for name, curve in panel.curves.items()
+            if name != "solved"
+        ]
+        heading = [f"red light, {panel.tissue}: times the solution", *(f"{d:g} mm" for d in DEPTHS_MM)]
+        parts.append(page.table(heading, rows))
+        rows = [[p.label, f"{p.time_ms:.2f}", percent(p.error)] for p in studies.other_methods(tissue).values()]
+        parts.append(page.table([f"30 wavelengths x 256 thicknesses, {panel.tissue}", "ms", "largest error"], rows))
+    return "\n\n".join(parts)
+
+
+def lamps_section() -> str:
+    say("lamps")
+    rows = [
+        [e.lamp, f"{e.thickness_mm:g}", percent(e.diagonal), percent(e.matrix), percent(e.clipped_matrix)]
+        for e in lamps.lamp_errors(task.THREE_LAYERS)
+    ]
+    heading = ["lamp", "mm", "RGB by channel", "3x3 matrix", "3x3, lamp clipped to the gamut"]
+    return page.table(heading, rows)
+
+
+def main() -> None:
+    IMAGES.mkdir(parents=True, exist_ok=True)
+    say("presets")
+    plots.presets(IMAGES / "accuracy_presets.png")
+    sections = {
+        "machine": f"Measured with skinglow {sg.__version__} on {platform.machine()}, one thread, through Python.",
+        "lamps": lamps_section(),
+        "methods": methods_section(),
+        "solver": solver_section(),
+        "table": table_section(),
+        "estimate": estimate_section(),
+    }
+    page.fill(PROJECT / "docs" / "accuracy.md", sections)
+    say("docs/accuracy.md and its figures are written")
+
+
+if __name__ == "__main__":
+    main()

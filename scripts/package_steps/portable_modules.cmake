@@ -1,0 +1,6 @@
+# Included by CMake after the project's own project() line.
+# All symbols are looked up when a module is loaded, so that a missing one shows at the import and not in the middle of work.
+string(APPEND CMAKE_MODULE_LINKER_FLAGS
+    " -Wl,-z,now -Wl,--version-script=${CMAKE_CURRENT_LIST_DIR}/exported_symbols.map")
+# The licences of what is compiled in go into the wheel.
+install(DIRECTORY ${SKINGLOW_LICENSES}/ DESTINATION ${SKBUILD_METADATA_DIR}/licenses/third_party COMPONENT python)

@@ -1,0 +1,105 @@
+"""The exported scene: what is in it, and that POV-Ray shows the same light coming through."""
+
+import shutil
+import subprocess
+
+import bpy
+import numpy as np
+import skinglow_blender as sb
+
+from inside.scenes import black_material, camera_above, depsgraph, lamp, patch, read_exr, render_settings, table_1
+
+
+def suzanne():
+    bpy.ops.mesh.primitive_monkey_add(location=(0.0, 0.0, 0.0), rotation=(0.3, 0.2, 0.1))
+    return bpy.context.object
+
+
+def povray(folder, *options):
+    program = shutil.which("povray")
+    assert program, "POV-Ray is not installed"
+    done = subprocess.run(
+        [program, "scene.ini", *options], cwd=folder, capture_output=True, text=True, timeout=100, check=False
+    )
+    assert done.returncode == 0, done.stderr[-3000:]
+
+
+def away_from_edges(picture):
+    """Lit pixels about which the picture is smooth: both programs average over a pixel, each in its own way."""
+    brightest = picture.max(axis=2)
+    around = [np.roll(brightest, (i, j), (0, 1)) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+    return (brightest > 1e-6) & (np.max(around, axis=0) - np.min(around, axis=0) < 0.25)
+
+
+def check_same_light_coming_through(work):
+    table_1()
+    obj = suzanne()
+    obj.data.materials.append(black_material())
+    sb.make_skin(obj, unit_mm=2.0, mode="paper")
+    camera = camera_above(3.0)
+    camera.data.type = "PERSP"
+    camera.location = (0.4, 0.2, 5.0)
+    camera.rotation_euler = (0.05, 0.08, 0.2)
+    scene = render_settings(120, 90)
+    scene.cycles.samples, scene.cycles.filter_width = 64, 1.0
+    scene.render.filepath = str(work / "blender.exr")
+    bpy.ops.render.render(write_still=True)
+    expected = read_exr(work / "blender.exr")
+    for compute_lut in (False, True):
+        folder = work / f"povray_{compute_lut}"
+        files = sb.export_povray(depsgraph(), folder, surface=False, compute_lut=compute_lut)
+        names = {path.name for path in files}
+        assert names == {path.name for path in folder.iterdir()}
+        assert ("lut.exr" in names) != compute_lut
+        povray(folder)
+        shown = read_exr(folder / "scene.exr")
+        assert shown.shape == expected.shape
+        where = away_from_edges(expected)
+        assert where.sum() > 1000
+        rms = float(np.sqrt(np.mean((shown[where] - expected[where]) ** 2)))
+        assert expected[where].max() > 0.5
+        assert rms <= 1 / 255, rms
+    return rms
+
+
+def check_lut_file_is_exact(work):
+    lamp("Key", location=(0.0, 0.0, 2.0))
+    obj = patch()
+    sb.make_skin(obj, thickness=[1.0] * 4)
+    camera_above()
+    sb.export_povray(depsgraph(), work / "exact")
+    image = bpy.data.images.load(str(work / "exact" / "lut.exr"))
+    image.colorspace_settings.name = "Non-Color"
+    assert image.is_float and tuple(image.size) == (256, 1)
+    pixels = np.empty(256 * image.channels, np.float32)
+    image.pixels.foreach_get(pixels)
+    np.testing.assert_array_equal(pixels.reshape(256, -1)[:, :3], sb.lut(obj, depsgraph()))
+
+
+def check_only_what_is_used(work):
+    """No lamps where there is no surface to light; no leftovers in the file."""
+    lamp("Key", location=(0.0, 0.0, 2.0))
+    off = lamp("Off", location=(0.0, 0.0, 2.0))
+    off.hide_viewport = True
+    obj = patch()
+    sb.make_skin(obj, thickness=[1.0] * 4)
+    camera_above()
+    images = len(bpy.data.images)
+    files = {path.name for path in sb.export_povray(depsgraph(), work / "glow", surface=False)}
+    assert "lights.inc" not in files
+    files = {path.name for path in sb.export_povray(depsgraph(), work / "whole")}
+    assert "lights.inc" in files
+    text = (work / "whole" / "lights.inc").read_text()
+    assert text.count("light_source") == 1
+    assert len(bpy.data.images) == images
+    povray(work / "whole", "+W8", "+H8")
+
+
+def check_several_skins(work):
+    for name in ("One", "Two"):
+        sb.make_skin(patch(name), thickness=[1.0] * 4)
+    camera_above()
+    files = sb.export_povray(depsgraph(), work / "several")
+    assert {path.parent.name for path in files} == {"One", "Two"}
+    (lut,) = [p for p in sb.export_povray(depsgraph(), work / "one", obj=bpy.data.objects["One"]) if p.suffix == ".exr"]
+    assert lut.parent == work / "one"

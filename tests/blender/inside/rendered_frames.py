@@ -1,0 +1,170 @@
+"""What the renderers show: each frame the lookup of that frame, on Cycles with and without persistent data, on EEVEE."""
+
+import bpy
+import numpy as np
+import skinglow_blender as sb
+
+from inside.scenes import (
+    BLOOD,
+    black_material,
+    camera_above,
+    depsgraph,
+    grey,
+    lamp,
+    paper_table,
+    patch,
+    read_exr,
+    render_settings,
+    strips,
+)
+
+FRAMES = 10
+
+
+def color_at(frame):
+    return np.array([1.0 - frame / 20, frame / 10, 0.25 + 0.5 * (frame % 2)])
+
+
+def height_at(frame):
+    return 0.5 + 0.3 * frame
+
+
+def thicknesses(width):
+    return (np.arange(width) + 0.5) / width * 6.0
+
+
+def scene_with_moving_lamp(width=16):
+    """A patch of strips from 0 to 6 mm thick, one for each pixel, and a lamp keyed on every frame."""
+    key = lamp("Key")
+    for frame in range(1, FRAMES + 1):
+        key.data.color = color_at(frame)
+        key.location = (0.0, 0.0, height_at(frame))
+        key.data.keyframe_insert("color", frame=frame)
+        key.keyframe_insert("location", frame=frame)
+    obj = strips(width, material=black_material())
+    sb.make_skin(obj, thickness=np.repeat(thicknesses(width), 4), mode="paper")
+    camera_above()
+    scene = render_settings(width, 4)
+    scene.frame_start, scene.frame_end = 1, FRAMES
+    return scene, obj
+
+
+def expected_frame(frame, width=16, thickest=12.0):
+    """The lookup of that frame along the patch's thickness, (width, 3), interpolated as an image is."""
+    color = color_at(frame).astype(np.float32).astype(float)
+    weight = BLOOD + color / (1.0 + float(np.float32(height_at(frame))) ** 2)
+    entries = thicknesses(width) / thickest * 255
+    below = np.floor(entries).astype(int)
+    share = (entries - below)[:, None]
+    table = grey()[:, None] * weight
+    return table[below] * (1 - share) + table[below + 1] * share
+
+
+def assert_frames(folder, tolerance, last=FRAMES):
+    for frame in range(1, last + 1):
+        picture = read_exr(folder / f"{frame:04d}.exr")
+        expected = expected_frame(frame, picture.shape[1])
+        np.testing.assert_allclose(picture[1], expected, atol=tolerance, err_msg=f"frame {frame}")
+        # Not by chance: the frames before and after differ by far more.
+        for other in {max(frame - 1, 1), min(frame + 1, FRAMES)} - {frame}:
+            assert np.abs(picture[1] - expected_frame(other, picture.shape[1])).max() > 10 * tolerance
+
+
+def render_animation(folder):
+    scene = bpy.context.scene
+    folder.mkdir(exist_ok=True)
+    scene.render.filepath = f"{folder}/####"
+    bpy.ops.render.render(animation=True)
+
+
+def check_animation(work):
+    scene_with_moving_lamp()
+    render_animation(work / "animation")
+    assert_frames(work / "animation", 2e-5)
+
+
+def check_animation_with_persistent_data(work):
+    scene, _ = scene_with_moving_lamp()
+    scene.render.use_persistent_data = True
+    for again in ("first", "again"):
+        render_animation(work / f"persistent_{again}")
+        assert_frames(work / f"persistent_{again}", 2e-5)
+
+
+def check_animation_with_motion_blur(work):
+    """The picture is the frame's own, not that of a step between frames."""
+    scene, obj = scene_with_moving_lamp()
+    scene.render.use_motion_blur = True
+    # Something that blurs, far from the picture.
+    mover = patch("Mover", location=(50.0, 0.0, 0.0))
+    mover.keyframe_insert("location", frame=1)
+    mover.location.x = 60.0
+    mover.keyframe_insert("location", frame=FRAMES)
+    render_animation(work / "blur")
+    assert_frames(work / "blur", 2e-5)
+
+
+def check_viewport_and_render_have_lamps_of_their_own(work):
+    """One lamp for the viewport only, one for the render only; each sees its own, before, while and after."""
+    view, final = lamp("View", color=(1.0, 0.0, 0.0)), lamp("Final", color=(0.0, 0.0, 1.0))
+    view.hide_render = True
+    final.hide_viewport = True
+    obj = patch(material=black_material())
+    sb.make_skin(obj, thickness=[0.0] * 4)
+    camera_above()
+    render_settings(4, 4).render.filepath = str(work / "own.exr")
+    seen = {}
+
+    def while_rendering(_scene, graph):
+        if graph.mode == "RENDER":
+            seen["render"] = sb.lut(obj, graph)
+
+    bpy.app.handlers.frame_change_post.append(while_rendering)
+    try:
+        for _ in range(2):
+            np.testing.assert_array_max_ulp(sb.lut(obj, depsgraph()), paper_table([view]), 1)
+            bpy.ops.render.render(write_still=True)
+            np.testing.assert_array_max_ulp(seen["render"], paper_table([final]), 1)
+            picture = read_exr(work / "own.exr")
+            np.testing.assert_allclose(picture[2, 2], paper_table([final])[0], rtol=1e-5)
+            np.testing.assert_array_max_ulp(sb.lut(obj, depsgraph()), paper_table([view]), 1)
+            assert "viewport" in obj.skinglow.group.nodes["LUT below"].image.name
+    finally:
+        bpy.app.handlers.frame_change_post.remove(while_rendering)
+
+
+def check_view_layers_have_lamps_of_their_own(work):
+    """A lamp that one of two view layers excludes; each layer's picture shows its own lookup."""
+    scene = bpy.context.scene
+    extra = bpy.data.collections.new("Extra")
+    scene.collection.children.link(extra)
+    key, fill = lamp("Key", color=(1.0, 0.0, 0.0)), lamp("Fill", color=(0.0, 0.0, 1.0), collection=extra)
+    obj = patch(material=black_material())
+    sb.make_skin(obj, thickness=[0.0] * 4)
+    second = scene.view_layers.new("Second")
+    second.layer_collection.children["Extra"].exclude = True
+    camera_above()
+    render_settings(4, 4)
+    scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
+    scene.render.filepath = str(work / "layers.exr")
+    pictures = {}
+
+    def keep(_scene, graph):
+        if graph.mode == "RENDER":
+            pictures[graph.view_layer.name] = sb.lut(obj, graph)
+
+    bpy.app.handlers.frame_change_post.append(keep)
+    try:
+        bpy.ops.render.render(write_still=True)
+    finally:
+        bpy.app.handlers.frame_change_post.remove(keep)
+    np.testing.assert_array_max_ulp(pictures["ViewLayer"], paper_table([key, fill]), 1)
+    np.testing.assert_array_max_ulp(pictures["Second"], paper_table([key]), 1)
+    # Each layer rendered by itself, and both at once, give the same pictures.
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    for layer, lamps in (("ViewLayer", [key, fill]), ("Second", [key])):
+        for other in scene.view_layers:
+            other.use = other.name == layer
+        scene.render.filepath = str(work / f"{layer}.exr")
+        bpy.ops.render.render(write_still=True)
+        np.testing.assert_allclose(read_exr(work / f"{layer}.exr")[2, 2], paper_table(lamps)[0], rtol=1e-5)

@@ -1,0 +1,142 @@
+"""Runs in Blender, from a copy in a folder of its own: installs a package, or uses the one installed before.
+
+Usage: installed_package.py RESULT.json install ZIP | RESULT.json use
+What it finds goes into the JSON file; test_packages.py judges it.
+"""
+
+import json
+import os
+import sys
+import traceback
+from pathlib import Path
+
+OPENED: list[str] = []
+sys.addaudithook(lambda event, args: OPENED.append(str(args[0])) if event == "open" else None)
+
+import bpy  # noqa: E402
+
+ADDON = "skinglow_blender"
+TAKES_EXTENSIONS = bpy.app.version >= (4, 2, 0)
+
+
+def addon_name():
+    """What the preferences call the add-on; nothing while it is not enabled."""
+    enabled = bpy.context.preferences.addons.keys()
+    return next((name for name in enabled if name.split(".")[-1] == ADDON), None)
+
+
+def install(package):
+    """As a person does: from the file, enabled, kept in the preferences."""
+    if TAKES_EXTENSIONS:
+        bpy.ops.extensions.package_install_files(
+            repo="user_default", filepath=package, enable_on_install=True
+        )
+    else:
+        bpy.ops.preferences.addon_install(filepath=package)
+        bpy.ops.preferences.addon_enable(module=ADDON)
+    bpy.ops.wm.save_userpref()
+    return {"enabled": addon_name()}
+
+
+def use():
+    """In a new process: the core, the add-on by its own name, a skin, a render, and the way out."""
+    if addon_name() is None:
+        bpy.ops.wm.read_userpref()  # the bpy module starts without the user's preferences
+    found = {"enabled": addon_name(), "search_path": sys.path[:]}
+    import skinglow as sg
+    import skinglow_blender as sb
+
+    found["skinglow"], found["core"] = sg.__file__, sg._core.__file__
+    found["addon"] = sb.make_skin.__code__.co_filename
+    found["functions"] = [name for name in ("make_skin", "update", "lut") if not callable(getattr(sb, name))]
+    found |= follow_a_lamp(sg, sb)
+    found["rays"] = sys.modules["skinglow._rays"].__file__
+    found["render"] = render()
+    found["warnings"] = warnings()
+    found["opened"] = sorted({os.path.realpath(name) for name in OPENED if name.startswith("/")})
+    maps = Path("/proc/self/maps").read_text().splitlines()
+    found["mapped"] = sorted({line.split(None, 5)[5] for line in maps if "/" in line})
+    bpy.ops.preferences.addon_disable(module=found["enabled"])
+    handlers = [h for name in dir(bpy.app.handlers) for h in listed(getattr(bpy.app.handlers, name))]
+    found["handlers_left"] = [h.__module__ for h in handlers if ADDON in h.__module__]
+    found["removed"] = remove()
+    return found
+
+
+def listed(value):
+    return value if isinstance(value, list) else []
+
+
+def follow_a_lamp(sg, sb):
+    """A ball of 20 mm, measured by rays, and what it shows before and after its lamp moves, by Eq. 1-3."""
+    for obj in list(bpy.data.objects):
+        bpy.data.objects.remove(obj)
+    bpy.ops.mesh.primitive_uv_sphere_add(radius=0.01, segments=48, ring_count=24)
+    obj = bpy.context.object
+    lamp = bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT"))
+    bpy.context.scene.collection.objects.link(lamp)
+    lamp.data.color = (0.25, 0.5, 1.0)
+    state = sb.make_skin(obj, mode="paper", reference_point=(0.0, 0.0, 0.0), max_thickness_mm=24.0)
+    found = {"thickness_mm": list(state.thickness_mm), "shown": [], "expected": []}
+    for x in (1.0, 3.0):
+        lamp.location = (x, 0.0, 0.0)
+        bpy.context.view_layer.update()
+        found["shown"].append(sb.lut(obj, bpy.context.evaluated_depsgraph_get())[0].tolist())
+        pairs = zip((1.8, 0.5, 0.4), lamp.data.color, strict=True)
+        weight = [blood + color / (1.0 + x * x) for blood, color in pairs]
+        found["expected"].append(sg.recolour(sg.six_gaussian_base(256, 24.0), weight)[0].tolist())
+    return found
+
+
+def render():
+    """Cycles, by the Embree that Blender brings, in one process with ours: the picture's brightest value."""
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    scene.cycles.device, scene.cycles.samples, scene.cycles.use_denoising = "CPU", 4, False
+    scene.render.resolution_x = scene.render.resolution_y = 16
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    scene.render.filepath = os.path.join(os.getcwd(), "picture.exr")
+    scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    scene.collection.objects.link(scene.camera)
+    scene.camera.location, scene.camera.data.clip_start = (0.0, 0.0, 0.05), 1e-3
+    bpy.ops.render.render(write_still=True)
+    picture = bpy.data.images.load(scene.render.filepath)
+    pixels = picture.pixels[:]
+    return max(value for channel in range(3) for value in pixels[channel::4])
+
+
+def warnings():
+    """What Blender holds against extensions: modules or search paths that break its rules."""
+    import addon_utils
+
+    find = getattr(addon_utils, "_extensions_warnings_get", None)
+    return {name: list(texts) for name, texts in find().items()} if find else {}
+
+
+def remove():
+    """Takes an extension away by Blender's own uninstaller; what is left. Before 4.2 that needs a window."""
+    if not TAKES_EXTENSIONS:
+        return []
+    repos = bpy.context.preferences.extensions.repos
+    index = next(i for i, repo in enumerate(repos) if repo.module == "user_default")
+    bpy.ops.extensions.package_uninstall(repo_index=index, pkg_id=ADDON)
+    profile = Path(os.environ["BLENDER_USER_RESOURCES"])
+    return [str(path.relative_to(profile)) for path in profile.rglob("*skinglow*")]
+
+
+def main():
+    result, task, *arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else sys.argv[1:]
+    found = {"install": install, "use": use}[task](*arguments)
+    Path(result).write_text(json.dumps(found, indent=1))
+
+
+code = 0
+try:
+    main()
+except BaseException:
+    traceback.print_exc()
+    code = 3
+sys.stdout.flush()
+sys.stderr.flush()
+# The 4.5 wheel never comes back from an ordinary exit.
+os._exit(code)

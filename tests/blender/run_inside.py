@@ -1,0 +1,49 @@
+"""Runs in Blender: the checks of one module, each on an empty file, with one JSON line for each."""
+
+import importlib
+import json
+import os
+import sys
+import time
+import traceback
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path[:0] = [str(HERE), str(HERE.parents[1] / "blender_addon")]
+if os.environ.get("SKINGLOW_SITE"):
+    # Behind Blender's own: only the core is wanted from there.
+    sys.path.append(os.environ["SKINGLOW_SITE"])
+
+import bpy  # noqa: E402
+
+
+def main() -> None:
+    arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else sys.argv[1:]
+    module_name, work, results, *wanted = arguments
+    module = importlib.import_module(f"inside.{module_name}")
+    checks = {name: value for name, value in vars(module).items() if name.startswith("check_")}
+    with Path(results).open("w") as out:
+        for name, check in checks.items():
+            if wanted and name not in wanted:
+                continue
+            started = time.perf_counter()
+            try:
+                bpy.ops.wm.read_factory_settings(use_empty=True)
+                outcome = {"value": check(Path(work))}
+            except BaseException:
+                outcome = {"error": traceback.format_exc()}
+            outcome.update(check=name, seconds=round(time.perf_counter() - started, 3))
+            out.write(json.dumps(outcome) + "\n")
+            out.flush()
+
+
+code = 0
+try:
+    main()
+except BaseException:
+    traceback.print_exc()
+    code = 3
+sys.stdout.flush()
+sys.stderr.flush()
+# The 4.5 wheel never comes back from an ordinary exit.
+os._exit(code)

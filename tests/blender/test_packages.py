@@ -1,0 +1,178 @@
+"""What users install: wheels for any Linux that Blender runs on, and the add-on by Blender's own installer.
+
+scripts/package makes the packages; SKINGLOW_PACKAGES says where they are.
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hosts import HERE, Host, hosts_here
+
+PROJECT = HERE.parents[1]
+PACKAGES = Path(os.environ.get("SKINGLOW_PACKAGES", PROJECT / "build" / "packages"))
+#: Blender asks for glibc 2.28 from 4.2 on.
+GLIBC = (2, 28)
+#: The C library and its parts: there on every Linux.
+SYSTEM_LIBRARIES = {
+    "libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1", "ld-linux-x86-64.so.2",
+}  # fmt: skip
+SECONDS = 120
+
+
+def packages(pattern: str) -> list[Path]:
+    found = sorted(PACKAGES.glob(pattern))
+    assert found, f"no {pattern} in {PACKAGES}: scripts/package makes it"
+    return found
+
+
+def modules(wheel: Path, folder: Path) -> list[Path]:
+    with zipfile.ZipFile(wheel) as archive:
+        return [Path(archive.extract(name, folder)) for name in archive.namelist() if name.endswith(".so")]
+
+
+def zips() -> tuple[Path, Path]:
+    """The extension for Blender 4.2 and later, the add-on for those before."""
+    (legacy,) = packages("skinglow_blender-*-legacy-linux-x64.zip")
+    (extension,) = [path for path in packages("skinglow_blender-*-linux-x64.zip") if path != legacy]
+    return extension, legacy
+
+
+def objdump(*arguments: str) -> str:
+    return subprocess.run(["objdump", *arguments], capture_output=True, text=True, check=True).stdout
+
+
+@pytest.mark.parametrize("python", ["cp311", "cp313"])
+def test_wheel_runs_on_any_linux(python: str, tmp_path: Path) -> None:
+    (wheel,) = packages(f"skinglow-*-{python}-{python}-*.whl")
+    tag = re.search(r"manylinux_2_(\d+)_x86_64", wheel.name)
+    assert tag and int(tag[1]) <= GLIBC[1], wheel.name
+    found = modules(wheel, tmp_path)
+    assert sorted(path.name.split(".")[0] for path in found) == ["_core", "_rays"]
+    for module in found:
+        needed = set(re.findall(r"NEEDED\s+(\S+)", objdump("-p", str(module))))
+        assert needed <= SYSTEM_LIBRARIES, f"{module.name} needs {needed - SYSTEM_LIBRARIES}"
+        symbols = objdump("-T", str(module))
+        asked = {tuple(map(int, version.split("."))) for version in re.findall(r"GLIBC_([\d.]+)", symbols)}
+        assert asked and max(asked) <= (2, int(tag[1])), f"{module.name} needs glibc {max(asked)}"
+        unversioned = re.findall(r"\*UND\*\s+[0-9a-f]+\s+(\w+)$", symbols, re.MULTILINE)
+        assert not [name for name in unversioned if not re.match("_?Py", name)], f"{module.name} lacks a part"
+        # Nothing to be taken for a host's own Embree, TBB or C++ library.
+        shown = [line.split()[-1] for line in symbols.splitlines() if " g " in line and "*UND*" not in line]
+        assert shown == [f"PyInit_{module.name.split('.')[0]}"]
+
+
+@pytest.mark.parametrize("python", ["cp311", "cp313"])
+def test_wheel_brings_its_licences_and_nothing_else(python: str) -> None:
+    (wheel,) = packages(f"skinglow-*-{python}-{python}-*.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        names = archive.namelist()
+    assert {name.split("/")[0].split("-")[0] for name in names} == {"skinglow"}
+    third_party = {Path(name).stem for name in names if re.search("/licenses/third_party/.", name)}
+    assert third_party == {"embree", "pybind11", "glm", "eigen"}
+
+
+def test_zips_hold_the_addon_and_no_leftovers() -> None:
+    root = PROJECT / "blender_addon"
+    sources = {path.relative_to(root) for path in root.glob("skinglow_blender/**/*.py")}
+    extension, legacy = zips()
+    for path, inside in ((legacy, Path()), (extension, Path("skinglow_blender"))):
+        with zipfile.ZipFile(path) as archive:
+            held = {inside / name for name in archive.namelist() if not name.endswith("/")}
+        assert sources <= held, f"{path.name} lacks {sources - held}"
+        assert Path("skinglow_blender/LICENSE") in held
+        assert not [name for name in held if "__pycache__" in name.parts]
+        code = {name for name in held if name.suffix == ".py" and "lib" not in name.parts}
+        assert code == sources, f"{path.name} holds {code - sources}"
+
+
+def own_python(host: Host, folder: Path) -> Path:
+    """An environment outside of the project's folder: all that the host's has but the project's package."""
+    program = Path(host.path)
+    subprocess.run([program, "-m", "venv", "--without-pip", str(folder)], check=True)
+    (theirs,) = program.parents[1].glob("lib/python3*/site-packages")
+    (ours,) = folder.glob("lib/python3*/site-packages")
+    for entry in theirs.iterdir():
+        if not entry.name.startswith(("skinglow", "pip", "__pycache__")):
+            (ours / entry.name).symlink_to(entry)
+    return folder / "bin" / "python"
+
+
+class Installation:
+    """A clean profile of one host, far from the project, and runs of Blender in it."""
+
+    def __init__(self, host: Host, folder: Path) -> None:
+        assert host.path, f"Blender {host.name} is not there: {host.variable} does not say where it is"
+        self.profile, self.work = folder / "profile", folder / "work"
+        self.work.mkdir()
+        self.script = Path(shutil.copy(HERE / "installed_package.py", self.work))
+        if host.is_program:
+            self.command = [host.path, "-b", "-P", str(self.script), "--"]
+        else:
+            self.command = [str(own_python(host, folder / "python")), str(self.script)]
+        own = {"HOME": folder / "home", "BLENDER_USER_RESOURCES": self.profile}
+        for part in ("CONFIG", "SCRIPTS", "DATAFILES"):  # before 4.2
+            own[f"BLENDER_USER_{part}"] = self.profile / part.lower()
+        for place in own.values():
+            place.mkdir(parents=True)
+        ours = ("PYTHON", "SKINGLOW", "XDG_", "BLENDER_")
+        self.environment = {name: value for name, value in os.environ.items() if not name.startswith(ours)}
+        self.environment |= {name: str(place) for name, place in own.items()} | {"PYTHONNOUSERSITE": "1"}
+
+    def run(self, *task: str) -> dict:
+        result, log = self.work / f"{task[0]}.json", self.work / f"{task[0]}.txt"
+        with log.open("w") as out:
+            process = subprocess.Popen(
+                [*self.command, str(result), *task],
+                cwd=self.work,
+                env=self.environment,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+            )
+            try:
+                ending = f"exit code {process.wait(SECONDS)}"
+            except subprocess.TimeoutExpired:
+                process.kill()
+                ending = f"killed after {SECONDS} s, exit code {process.wait()}"
+        told = f"{task[0]} with {self.command[0]}: {ending}\n{log.read_text()[-6000:]}"
+        assert ending == "exit code 0" and result.exists(), told
+        return json.loads(result.read_text())
+
+
+@pytest.mark.parametrize("host", hosts_here(), ids=lambda host: host.name)
+def test_installed_by_blender_and_used_without_the_project(host: Host, tmp_path: Path) -> None:
+    assert not tmp_path.is_relative_to(PROJECT)
+    extension, legacy = zips()
+    installation = Installation(host, tmp_path)
+    package = Path(shutil.copy(legacy if host.is_program else extension, tmp_path))
+    name = "skinglow_blender" if host.is_program else "bl_ext.user_default.skinglow_blender"
+    assert installation.run("install", str(package))["enabled"] == name
+    package.unlink()
+
+    found = installation.run("use")
+    assert found["enabled"] == name, "the add-on is enabled again when Blender starts"
+    for part in ("skinglow", "core", "rays", "addon"):
+        assert Path(found[part]).is_relative_to(installation.profile), f"{part} comes from {found[part]}"
+    assert found["functions"] == []
+    assert not [p for p in found["search_path"] if Path(p).is_relative_to(PROJECT)]
+    assert {found["core"], found["rays"]} <= set(found["mapped"])
+    # Of the project's folder only the environments are read, where bpy is, and nothing of ours in them.
+    environments = PROJECT / "build" / "envs"
+    used = [path for path in map(Path, found["opened"] + found["mapped"]) if path.is_relative_to(PROJECT)]
+    assert not [path for path in used if not path.is_relative_to(environments)]
+    assert not [path for path in used if "skinglow" in str(path.relative_to(environments))]
+
+    # A ball of 48 x 24 faces around one of 20 mm is at most 1 % thinner, and rays add some of their own.
+    np.testing.assert_allclose(found["thickness_mm"], 20.0, rtol=0.03)
+    np.testing.assert_allclose(found["shown"], found["expected"], rtol=1e-6)
+    assert found["shown"][0] != found["shown"][1]
+    assert 0.0 < found["render"] < 100.0
+    assert found["warnings"] == {}
+    assert found["handlers_left"] == []
+    assert found["removed"] == []

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "light.h"
+
+/// Scenes that a person would not think of: every kind of lamp, sizes and powers over decades, negative
+/// power, lamps in and on the box of the object.
+namespace skinglow {
+
+class RandomScene {
+  public:
+    explicit RandomScene(unsigned seed) : engine_(seed) {}
+
+    double between(double least, double most) {
+        return std::uniform_real_distribution<double>(least, most)(engine_);
+    }
+    double decades(double least, double most) {
+        return std::pow(10.0, between(std::log10(least), std::log10(most)));
+    }
+    bool one_in(int n) { return std::uniform_int_distribution<int>(1, n)(engine_) == 1; }
+    glm::dvec3 in_box(const glm::dvec3& least, const glm::dvec3& most) {
+        return {between(least.x, most.x), between(least.y, most.y), between(least.z, most.z)};
+    }
+    glm::dvec3 unit_vector() {
+        std::normal_distribution<double> normal;
+        glm::dvec3 v(0.0);
+        while (glm::length(v) < 1e-3) v = {normal(engine_), normal(engine_), normal(engine_)};
+        return glm::normalize(v);
+    }
+
+    Light light() {
+        Light light;
+        light.kind = static_cast<LightKind>(std::uniform_int_distribution<int>(0, 3)(engine_));
+        light.color = in_box(glm::dvec3(0.0), glm::dvec3(1.0));
+        light.position = unit_vector() * decades(0.05, 100.0);
+        light.direction = one_in(2) ? unit_vector() : unit_vector() * 0.4 - light.position;
+        light.power = decades(1e-3, 1e3) * (one_in(10) ? -1.0 : 1.0);
+        light.radius = one_in(2) ? 0.0 : decades(0.001, 3.0);
+        light.soft_falloff = !one_in(3);
+        light.sun_angle = one_in(2) ? 0.0 : between(0.0, std::numbers::pi);
+        light.spot_angle = between(0.05, std::numbers::pi);
+        light.spot_blend = one_in(4) ? 0.0 : between(0.0, 1.0);
+        light.spot_cosine = one_in(5);
+        light.area_shape = one_in(2) ? AreaShape::ellipse : AreaShape::rectangle;
+        light.size_x = one_in(5) ? 0.0 : decades(0.01, 10.0);
+        light.size_y = one_in(5) ? 0.0 : decades(0.01, 10.0);
+        light.tangent = unit_vector();
+        light.spread = one_in(2) ? std::numbers::pi : between(0.05, std::numbers::pi);
+        return light;
+    }
+
+    std::vector<Light> lights(int count) {
+        std::vector<Light> rig;
+        for (int i = 0; i < count; ++i) rig.push_back(light());
+        return rig;
+    }
+
+    std::mt19937& engine() { return engine_; }
+
+  private:
+    std::mt19937 engine_;
+};
+
+}  // namespace skinglow

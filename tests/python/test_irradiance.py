@@ -1,0 +1,161 @@
+"""Irradiance in physical units: formulae written out here in numpy, bounds, shapes and errors."""
+
+import numpy as np
+import pytest
+import skinglow as sg
+from hypothesis import given
+from hypothesis import strategies as st
+
+PI = np.pi
+coordinate = st.floats(-10, 10, allow_nan=False)
+vector = st.tuples(coordinate, coordinate, coordinate)
+direction = vector.filter(lambda v: np.linalg.norm(v) > 1e-3)
+fraction = st.floats(0, 1)
+light = st.builds(
+    sg.Light,
+    kind=st.sampled_from(["POINT", "SUN", "SPOT", "AREA"]),
+    color=st.tuples(fraction, fraction, fraction),
+    position=vector,
+    direction=direction,
+    power=st.floats(-100, 100),
+    visible=st.booleans(),
+    radius=st.floats(0, 2),
+    soft_falloff=st.booleans(),
+    sun_angle=st.floats(0, PI),
+    spot_angle=st.floats(0, PI),
+    spot_blend=fraction,
+    spot_cosine=st.booleans(),
+    area_shape=st.sampled_from(["RECTANGLE", "ELLIPSE"]),
+    size_x=st.floats(0, 3),
+    size_y=st.floats(0, 3),
+    tangent=vector,
+    spread=st.floats(0, PI),
+)
+
+
+def test_each_kind_is_its_formula():
+    above = {"position": (0, 0, 2), "power": 100}
+    point = 100 / (4 * PI * 4)
+    assert sg.irradiance([sg.Light("POINT", **above)], (0, 0, 0)) == pytest.approx([point] * 3)
+    assert sg.irradiance([sg.Light("SPOT", **above)], (0, 0, 0)) == pytest.approx([point] * 3)
+    assert sg.irradiance([sg.Light("SUN", power=3)], (7, 7, 7)) == pytest.approx([3] * 3)
+    assert sg.irradiance([sg.Light("AREA", **above)], (0, 0, 0)) == pytest.approx([4 * point] * 3)
+    soft = sg.Light("POINT", **above, radius=0.5)
+    assert sg.irradiance([soft], (0, 0, 0))[0] == pytest.approx(1.8724, abs=5e-5)
+
+
+def test_disk_off_its_axis_is_the_closed_form():
+    radius, height = 0.5, 1.5
+    disk = sg.Light("AREA", position=(0, 0, height), size_x=1, size_y=1, area_shape="DISK")
+    aside = np.linspace(0, 3, 50)
+    points = np.stack([aside, 0 * aside, 0 * aside], axis=1)
+    s = aside**2 + height**2 + radius**2
+    view = 0.5 * (1 - (s - 2 * radius**2) / np.sqrt(s**2 - 4 * aside**2 * radius**2))
+    up = np.tile([0.0, 0.0, 1.0], (50, 1))
+    ours = sg.surface_irradiance([disk], points, up)[:, 0]
+    np.testing.assert_allclose(ours, view / (PI * radius**2), rtol=1e-6)
+
+
+@given(st.lists(light, max_size=6), vector)
+def test_parts_add_up_and_are_finite(lights, point):
+    parts = sg.irradiances(lights, point)
+    assert parts.shape == (len(lights), 3)
+    assert np.isfinite(parts).all()
+    total = sg.irradiance(lights, point)
+    np.testing.assert_allclose(total, parts.sum(axis=0), rtol=1e-9, atol=1e-12 * abs(parts).sum())
+    for one, part in zip(lights, parts, strict=True):
+        assert (part == 0).all() or one.is_on
+
+
+@given(st.lists(light, max_size=4), st.lists(st.tuples(vector, direction), max_size=5))
+def test_surface_is_never_above_what_faces_the_lamps(lights, places):
+    points = np.array([p for p, _ in places]).reshape(-1, 3)
+    normals = np.array([n for _, n in places]).reshape(-1, 3)
+    values = sg.surface_irradiance(lights, points, normals)
+    assert values.shape == points.shape
+    assert np.isfinite(values).all()
+    for point, value in zip(points, values, strict=True):
+        box = sg.LightTree(lights).cull(point, point, 1e30)
+        assert (abs(value) <= box["bound"] * (1 + 1e-9) + 1e-12).all()
+
+
+@given(st.lists(light, max_size=12), vector, st.floats(0, 2), st.floats(0, 10), direction)
+def test_culling_keeps_its_bound(lights, middle, half, tolerance, normal):
+    low, high = np.subtract(middle, half), np.add(middle, half)
+    result = sg.LightTree(lights).cull(low, high, tolerance)
+    dropped = [i for group in result["dropped"] for i in group["lights"]]
+    assert sorted(dropped + result["kept"]) == list(range(len(lights)))
+    assert (result["bound"] <= tolerance).all()
+    left_out = [lights[i] for i in dropped]
+    corners = np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T
+    lost = sg.surface_irradiance(left_out, corners, np.tile(normal, (8, 1)))
+    assert (abs(lost) <= result["bound"] + 1e-12).all()
+    for corner in corners:
+        assert (abs(sg.irradiance(left_out, corner)) <= result["bound"] + 1e-12).all()
+
+
+@given(st.lists(light, max_size=5), vector, st.floats(0, 1))
+def test_object_weight_error_holds(lights, middle, half):
+    low, high = np.subtract(middle, half), np.add(middle, half)
+    error = sg.object_irradiance_error(lights, middle, low, high)
+    here = sg.irradiance(lights, middle)
+    for corner in (low, high):
+        change = abs(sg.irradiance(lights, corner) - here)
+        assert (change <= error * (1 + 1e-9) + 1e-12).all()
+
+
+def test_far_side_is_behind_and_faces_away():
+    back = sg.Light("POINT", position=(0, 0, -3), power=4 * PI)
+    normals = np.array([[0, 0, 1.0], [0, 0, -1.0]])
+    values = sg.far_side_irradiance([back], np.array([[0, 0, 1.0]] * 2), normals, 2.0)
+    np.testing.assert_allclose(values, [[0.25] * 3, [0] * 3], atol=1e-15)
+
+
+def test_report_names_reasons():
+    lights = [
+        sg.Light("POINT", position=(0, 0, 2), power=10, name="Key"),
+        sg.Light("POINT", visible=False),
+        sg.Light("SPOT", position=(0, 0, 2), direction=(1, 0, 0)),
+        sg.Light("AREA", position=(0, 0, 2), direction=(0, 0, 1)),
+        sg.Light("POINT", position=(0, 0, 2)),
+    ]
+    report = sg.light_report(lights, (0, 0, 0), occluded=[False] * 4 + [True])
+    states = [entry["state"] for entry in report]
+    assert states == ["shines", "hidden", "outside cone", "behind lamp", "occluded"]
+    assert report[0]["share"] == 1
+    assert report[0]["normal_angle"] is None
+    assert sg.light_report(lights, (0, 0, 0), normal=(0, 0, -1))[0]["state"] == "behind"
+
+
+def test_environment_and_angles():
+    constant = sg.Environment((0.5, 1, 2))
+    normals = np.array([[0, 0, 1.0], [0.6, 0, 0.8], [0, 0, 0]])
+    expected = np.array([[0.5, 1, 2], [0.5, 1, 2], [0, 0, 0]]) * PI
+    np.testing.assert_allclose(constant.irradiance(normals), expected)
+    image = sg.Environment(np.ones((8, 16, 3)) * [0.5, 1, 2])
+    np.testing.assert_allclose(image.irradiance(normals), expected)
+    weight = sg.AngularWeight([0, 1], [0.2, 1.0])
+    np.testing.assert_allclose(constant.irradiance(normals, weight), expected)
+    mu = (np.arange(1000) + 0.5) / 1000
+    np.testing.assert_allclose((2 * mu[:, None] * weight.at(mu)).mean(axis=0), 1, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: sg.Light("AREA", size_x=-1, name="A"), 'light "A" size_x is -1'),
+        (lambda: sg.Light("SPOT", spot_angle=4), "spot_angle is 4"),
+        (lambda: sg.Light("AREA", area_shape="ROUND"), "RECTANGLE, SQUARE, ELLIPSE or DISK"),
+        (lambda: sg.irradiance([], (0, 0, np.nan)), "point is"),
+        (lambda: sg.irradiance([], (0, 0, 0), tolerance=0), "tolerance is 0"),
+        (lambda: sg.surface_irradiance([], np.zeros((2, 3)), np.zeros((1, 3))), "normals is 1"),
+        (lambda: sg.surface_irradiance([], np.zeros(3), np.zeros(3)), r"shape \(n, 3\)"),
+        (lambda: sg.Environment(np.zeros((2, 2))), r"\(9, 3\)"),
+        (lambda: sg.AngularWeight([0, 1], [0, 0]), "above 0"),
+        (lambda: sg.LightTree([]).cull((1, 0, 0), (0, 1, 1), 1), "box least"),
+        (lambda: sg.black_body_colour(10), "800 to 20000 K"),
+    ],
+)
+def test_bad_input_is_named(call, message):
+    with pytest.raises(ValueError, match=message):
+        call()
