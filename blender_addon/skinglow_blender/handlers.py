@@ -77,6 +77,10 @@ def on_data_replaced(_first: Any, _second: Any) -> None:  # noqa: ANN401
     STATE.rendering = False
     STATE.render_frame = None
     STATE.forget()
+    # What was evaluated while loading is not reported any more, and drivers and keys may have changed lamps then.
+    for obj in bpy.data.objects:
+        if obj.skinglow.enabled:
+            obj.update_tag(refresh={"OBJECT"})
 
 
 @guarded

@@ -80,7 +80,7 @@ class Studio:
         scene.render.film_transparent = True
         settings.file_format, settings.color_depth, settings.color_mode = "OPEN_EXR", "32", "RGBA"
         with stage.light_through_alone(self.head):
-            self.render("light_through_blender.exr", "")
+            self.render("light_through_blender.exr", "_ear")
         settings.file_format, settings.color_depth, settings.color_mode = "PNG", "8", "RGB"
         bpy.data.images["Render Result"].save_render(str(OUT / "light_through_blender.png"))
         scene.render.film_transparent = False
@@ -102,10 +102,13 @@ def main() -> dict[str, Any]:
     step("Cycles: the light coming through, alone")
     studio.render_light_through()
     step("writing the scene for POV-Ray")
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    sb.export_povray(depsgraph, OUT / "povray")
+    studio.scene.camera = studio.cameras[""]
+    sb.export_povray(bpy.context.evaluated_depsgraph_get(), OUT / "povray")
     # The second opinion: the lookup is POV-Ray's own work, by the macros, from the lamps and the base.
-    sb.export_povray(depsgraph, OUT / "povray_light_through", surface=False, compute_lut=True)
+    studio.scene.camera = studio.cameras["_ear"]
+    sb.export_povray(
+        bpy.context.evaluated_depsgraph_get(), OUT / "povray_light_through", surface=False, compute_lut=True
+    )
 
     for name in ("Light1", "Light3"):
         bpy.data.objects.remove(bpy.data.objects[name])

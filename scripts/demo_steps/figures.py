@@ -92,7 +92,7 @@ def hosts(path: Path, out: Path, numbers: dict[str, Any]) -> None:
         "table1_paper.png": f"Blender {numbers['blender']} (Cycles)",
         "table1_povray.png": "POV-Ray 3.7: no light from wall to wall, no gloss",
         "": "",
-        "light_through_blender.png": "Blender: the light coming through, alone",
+        "light_through_blender.png": "Blender: the light coming through the ear, alone",
         "light_through_povray.png": "POV-Ray: the same, its lookup computed by the macros",
         "difference.png": f"difference: RMS {compared['rms']:.1e}, white is {compared['heat_map_white']:.1e}",
     }
