@@ -17,9 +17,7 @@ def eevee_engine() -> str:
     return "BLENDER_EEVEE_NEXT" if (4, 2, 0) <= VERSION < (5, 0, 0) else "BLENDER_EEVEE"
 
 
-def new_group_socket(
-    group: bpy.types.NodeTree, name: str, kind: str, in_out: str, description: str
-) -> None:
+def new_group_socket(group: bpy.types.NodeTree, name: str, kind: str, in_out: str, description: str) -> None:
     """Adds a socket to a node group's face; in_out is 'INPUT' or 'OUTPUT'."""
     if hasattr(group, "interface"):
         socket = group.interface.new_socket(name, in_out=in_out, socket_type=kind)
@@ -42,9 +40,7 @@ def ensure_shader_tree(material: bpy.types.Material) -> bpy.types.NodeTree:
     return material.node_tree
 
 
-def socket_named(
-    sockets: bpy.types.bpy_prop_collection, *names: str
-) -> bpy.types.NodeSocket | None:
+def socket_named(sockets: bpy.types.bpy_prop_collection, *names: str) -> bpy.types.NodeSocket | None:
     """The first socket that goes by one of these names: the Principled BSDF's were renamed in 4.0."""
     for name in names:
         if name in sockets:

@@ -72,15 +72,30 @@ def on_render_end(_scene: bpy.types.Scene, _unused: None) -> None:
 
 
 @guarded
-def on_data_replaced(_first: Any, _second: Any) -> None:  # noqa: ANN401
-    """Load, undo or redo: nothing remembered holds any more."""
-    STATE.rendering = False
-    STATE.render_frame = None
-    STATE.forget()
-    # What was evaluated while loading is not reported any more, and drivers and keys may have changed lamps then.
+def on_undo(_first: Any, _second: Any) -> None:  # noqa: ANN401
+    """Undo or redo: nothing remembered holds any more; the evaluation that follows computes all.
+
+    Pixels are not undone but the nodes' images are, so that evaluation has to be reported whatever else it finds.
+    """
+    forget_all()
     for obj in bpy.data.objects:
         if obj.skinglow.enabled:
             obj.update_tag(refresh={"OBJECT"})
+
+
+@guarded
+def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
+    """A file was loaded. What is evaluated while it loads is not reported, so it is looked at here."""
+    forget_all()
+    if bpy.context.view_layer is not None and any(obj.skinglow.enabled for obj in bpy.data.objects):
+        update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
+
+
+def forget_all() -> None:
+    """Back to the state before the first update."""
+    STATE.rendering = False
+    STATE.render_frame = None
+    STATE.forget()
 
 
 @guarded
@@ -106,9 +121,9 @@ HANDLERS = (
     ("render_pre", on_render_pre),
     ("render_complete", on_render_end),
     ("render_cancel", on_render_end),
-    ("load_post", on_data_replaced),
-    ("undo_post", on_data_replaced),
-    ("redo_post", on_data_replaced),
+    ("load_post", on_load),
+    ("undo_post", on_undo),
+    ("redo_post", on_undo),
     ("save_pre", on_save),
 )
 

@@ -36,8 +36,13 @@ def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[
         if other.type == "LIGHT" and other.name not in seen:
             rows.append(
                 {
-                    "name": other.name, "kind": other.data.type, "weight": np.zeros(3), "distance": None,
-                    "share": 0.0, "reason": _why_hidden(other, depsgraph), "note": "",
+                    "name": other.name,
+                    "kind": other.data.type,
+                    "weight": np.zeros(3),
+                    "distance": None,
+                    "share": 0.0,
+                    "reason": _why_hidden(other, depsgraph),
+                    "note": "",
                 }
             )
     return rows
@@ -62,8 +67,13 @@ def _row(skin: Skin, lamp: Lamp) -> dict[str, Any]:
     except ValueError as error:
         reason = reason or str(error)
     return {
-        "name": lamp.name, "kind": lamp.signature[1], "weight": weight, "distance": distance,
-        "share": 0.0, "reason": reason, "note": lamp.note,
+        "name": lamp.name,
+        "kind": lamp.signature[1],
+        "weight": weight,
+        "distance": distance,
+        "share": 0.0,
+        "reason": reason,
+        "note": lamp.note,
     }
 
 

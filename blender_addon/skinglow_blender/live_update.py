@@ -18,7 +18,13 @@ class Rebuilt(NamedTuple):
 
     skin: str  #: name of the object
     mode: str  #: 'VIEWPORT' or 'RENDER': whose lamps it was computed for
-    why: str  #: in words
+    before: tuple | None  #: signature of what was shown before; None: nothing
+    after: tuple  #: signature of what is shown now
+
+    @property
+    def why(self) -> str:
+        """What changed, in words."""
+        return why_changed(self.before, self.after)
 
 
 class LiveState:
@@ -92,7 +98,7 @@ def _update_group(
                 atlas.rows[skin.key] = row
                 atlas.sizes[skin.key] = len(table.colors)
                 atlas.texel_mappings[skin.key] = table.texel_mapping
-                rebuilt.append(Rebuilt(skin.name, mode, why_changed(before, signature)))
+                rebuilt.append(Rebuilt(skin.name, mode, before, signature))
             _set_row_property(obj, skin, atlas)
         except (SkinError, ValueError) as error:
             faults[skin.key] = str(error)

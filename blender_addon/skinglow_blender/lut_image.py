@@ -66,7 +66,7 @@ def has_room(group: bpy.types.NodeTree, width: int, rows: int) -> bool:
 
 
 def ensure_images(group: bpy.types.NodeTree, width: int, rows: int) -> None:
-    """Makes a group's images, or enlarges them, to hold that many entries and rows. Not to be called while rendering."""
+    """Makes a group's images, or enlarges them, to hold that many entries and rows. Not while rendering."""
     if has_room(group, width, rows):
         return
     images = images_of(group)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The lamps of an evaluated scene as `skinglow.Light`, with what decides whether anything changed."""
 
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import bpy
@@ -9,7 +10,6 @@ from mathutils import Matrix
 from . import blender_version
 from .errors import core
 from .light_nodes import node_factor
-
 
 #: What a lamp's signature holds, in words.
 FIELDS = ("name", "type", "colour", "power", "position", "direction", "shape", "normalisation")
@@ -63,8 +63,13 @@ def read_lamp(obj: bpy.types.Object, matrix: Matrix, name: str) -> Lamp:
 
 def make_light(lamp: Lamp) -> Any:  # noqa: ANN401  a skinglow.Light
     """The core's lamp; raises ValueError, naming lamp and field, where the core refuses it."""
+    return _light_of(lamp.signature)
+
+
+@lru_cache(maxsize=4096)
+def _light_of(signature: tuple) -> Any:  # noqa: ANN401
     sg = core()
-    name, kind, color, power, position, direction, shape, normalized = lamp.signature
+    name, kind, color, power, position, direction, shape, normalized = signature
     fields = dict(shape, kind=kind, color=color, position=position, direction=direction, name=name)
     if blender_version.LEGACY_LIGHT_POWER:
         if kind == "AREA":

@@ -27,9 +27,7 @@ def new_group() -> bpy.types.NodeTree:
     maps, in which the rows of different skins run together, and by weights of eight bits.
     """
     group = bpy.data.node_groups.new(GROUP_NAME, "ShaderNodeTree")
-    blender_version.new_group_socket(
-        group, "Surface", "NodeSocketShader", "INPUT", "The skin's surface, kept as it is"
-    )
+    blender_version.new_group_socket(group, "Surface", "NodeSocketShader", "INPUT", "The skin's surface, kept as it is")
     blender_version.new_group_socket(
         group, "Shader", "NodeSocketShader", "OUTPUT", "The surface and the light coming through the skin"
     )

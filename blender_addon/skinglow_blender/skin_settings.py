@@ -93,89 +93,173 @@ class SkinSettings(bpy.types.PropertyGroup):
 
     enabled: BoolProperty(name="Skin", description="This object is a skin that glows", options={"HIDDEN"})
     live: BoolProperty(
-        name="Live", default=True, update=_changed,
+        name="Live",
+        default=True,
+        update=_changed,
         description="Follow the lights as they change; off: only 'Update now' does",
     )
     mode: EnumProperty(
-        name="Mode", items=MODES, default="PAPER", update=_changed,
+        name="Mode",
+        items=MODES,
+        default="PAPER",
+        update=_changed,
         description="How the light coming through is computed",
     )
     strength: FloatProperty(
-        name="Strength", default=1.0, min=0.0, soft_max=10.0, update=_changed,
+        name="Strength",
+        default=1.0,
+        min=0.0,
+        soft_max=10.0,
+        update=_changed,
         description="Factor on the light coming through; 1 shows the lookup as it is",
     )
     base: EnumProperty(
-        name="Base", items=BASES, default="BUILTIN", update=_changed,
+        name="Base",
+        items=BASES,
+        default="BUILTIN",
+        update=_changed,
         description="The base lookup that holds brightness only, by thickness",
     )
     base_image: PointerProperty(
-        name="Image", type=bpy.types.Image, update=_changed,
+        name="Image",
+        type=bpy.types.Image,
+        update=_changed,
         description="Base lookup; its middle row is read, colour is reduced to brightness",
     )
     blood_weight: FloatVectorProperty(
-        name="Blood", subtype="COLOR", size=3, default=(1.8, 0.5, 0.4), min=0.0, soft_max=4.0, max=1e6,
-        update=_changed, description="B of Eq. 1, added to the light weight; the paper's is 1.8, 0.5, 0.4",
+        name="Blood",
+        subtype="COLOR",
+        size=3,
+        default=(1.8, 0.5, 0.4),
+        min=0.0,
+        soft_max=4.0,
+        max=1e6,
+        update=_changed,
+        description="B of Eq. 1, added to the light weight; the paper's is 1.8, 0.5, 0.4",
     )
     attenuation: FloatVectorProperty(
-        name="Attenuation", size=3, default=(1.0, 0.0, 1.0), min=0.0, soft_max=10.0, precision=3, update=_changed,
+        name="Attenuation",
+        size=3,
+        default=(1.0, 0.0, 1.0),
+        min=0.0,
+        soft_max=10.0,
+        precision=3,
+        update=_changed,
         description="Constant, linear and quadratic coefficient of Eq. 2, for distances in scene units",
     )
     preset: EnumProperty(
         name="Skin", items=PRESETS, default="LIGHT", update=_preset_chosen, description="A skin to start from"
     )
     melanin_fraction: FloatProperty(
-        name="Melanin", default=0.038, min=0.0, max=0.5, precision=3, update=_slider_moved,
+        name="Melanin",
+        default=0.038,
+        min=0.0,
+        max=0.5,
+        precision=3,
+        update=_slider_moved,
         description="Melanosomes, volume fraction of the epidermis",
     )
     blood_fraction: FloatProperty(
-        name="Blood volume", default=0.01, min=0.0, max=0.1, precision=4, update=_slider_moved,
+        name="Blood volume",
+        default=0.01,
+        min=0.0,
+        max=0.1,
+        precision=4,
+        update=_slider_moved,
         description="Whole blood of 150 g/L haemoglobin, volume fraction of the dermis",
     )
     oxygen_saturation: FloatProperty(
-        name="Oxygen", default=0.75, min=0.0, max=1.0, update=_slider_moved,
+        name="Oxygen",
+        default=0.75,
+        min=0.0,
+        max=1.0,
+        update=_slider_moved,
         description="Oxygenated part of the haemoglobin",
     )
     epidermal_thickness_mm: FloatProperty(
-        name="Epidermis", default=0.06, min=0.0, max=0.3, precision=3, update=_slider_moved,
+        name="Epidermis",
+        default=0.06,
+        min=0.0,
+        max=0.3,
+        precision=3,
+        update=_slider_moved,
         description="Thickness of each of the two epidermes, mm",
     )
     scattering_scale: FloatProperty(
-        name="Scattering", default=1.0, min=0.1, max=3.0, update=_slider_moved,
+        name="Scattering",
+        default=1.0,
+        min=0.1,
+        max=3.0,
+        update=_slider_moved,
         description="Multiplies the scattering of every layer",
     )
     refractive_index: FloatProperty(
-        name="Index", default=1.4, min=1.0, max=1.6, update=_slider_moved,
+        name="Index",
+        default=1.4,
+        min=1.0,
+        max=1.6,
+        update=_slider_moved,
         description="Refractive index of every layer; outside is air",
     )
     cartilage_fraction: FloatProperty(
-        name="Cartilage", default=0.0, min=0.0, max=1.0, update=_slider_moved,
+        name="Cartilage",
+        default=0.0,
+        min=0.0,
+        max=1.0,
+        update=_slider_moved,
         description="Cartilage, volume fraction of the inner layer",
     )
     reference: EnumProperty(
-        name="Measured at", items=REFERENCES, default="BOUNDS", update=_changed,
+        name="Measured at",
+        items=REFERENCES,
+        default="BOUNDS",
+        update=_changed,
         description="Where distances to the lights are measured",
     )
     reference_point: FloatVectorProperty(
         name="Point", subtype="XYZ", size=3, update=_changed, description="World position, scene units"
     )
     size: IntProperty(
-        name="Texels", default=256, min=1, soft_max=1024, max=65536, update=_changed,
+        name="Texels",
+        default=256,
+        min=1,
+        soft_max=1024,
+        max=65536,
+        update=_changed,
         description="Entries of the lookup",
     )
     max_thickness_mm: FloatProperty(
-        name="Thickest", default=12.0, min=1e-3, soft_max=50.0, max=1e6, update=_changed,
+        name="Thickest",
+        default=12.0,
+        min=1e-3,
+        soft_max=50.0,
+        max=1e6,
+        update=_changed,
         description="Thickness at the lookup's last entry, mm; thicker skin shows that entry",
     )
     unit_mm: FloatProperty(
-        name="Unit", default=0.0, min=0.0, soft_max=1000.0, max=1e9, precision=3, update=_changed,
+        name="Unit",
+        default=0.0,
+        min=0.0,
+        soft_max=1000.0,
+        max=1e9,
+        precision=3,
+        update=_changed,
         description="Millimetres in one Blender unit; 0: as the scene's unit scale says (1000 by default)",
     )
     rays: IntProperty(
-        name="Rays", default=64, min=1, soft_max=512, max=65536,
+        name="Rays",
+        default=64,
+        min=1,
+        soft_max=512,
+        max=65536,
         description="Rays per vertex when the thickness is measured",
     )
     min_openness: FloatProperty(
-        name="Openness", default=0.1, min=0.0, max=1.0,
+        name="Openness",
+        default=0.1,
+        min=0.0,
+        max=1.0,
         description="Far sides that see less of the sky than this are dark (mouth, eye sockets) and let no light in; "
         "0: every far side counts",
     )
@@ -196,9 +280,7 @@ class LutImages(bpy.types.PropertyGroup):
 
 
 #: The names that `make_skin` takes.
-SETTING_NAMES = tuple(
-    name for name in SkinSettings.__annotations__ if name not in ("enabled", "group", "row")
-)
+SETTING_NAMES = tuple(name for name in SkinSettings.__annotations__ if name not in ("enabled", "group", "row"))
 
 
 def apply_settings(settings: SkinSettings, values: dict[str, Any]) -> None:

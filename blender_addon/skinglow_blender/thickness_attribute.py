@@ -56,7 +56,9 @@ def read_geometry(obj: bpy.types.Object, scene: bpy.types.Scene) -> Geometry:
     world = vertices.reshape(-1, 3) @ np.array(obj.matrix_world, np.float64)[:3, :3].T
     if obj.matrix_world.determinant() < 0.0:
         triangles = triangles[:, ::-1]  # a mirrored mesh is wound the other way
-    return Geometry(world, np.ascontiguousarray(triangles), unit_mm(obj, scene), obj.skinglow.rays, obj.skinglow.min_openness)
+    return Geometry(
+        world, np.ascontiguousarray(triangles), unit_mm(obj, scene), obj.skinglow.rays, obj.skinglow.min_openness
+    )
 
 
 def ensure_measured(

@@ -65,11 +65,16 @@ struct Factors {
 SKINGLOW_INLINE void fill_factors(std::size_t n, const double* decay, const double* thickness,
                                   Factors factors) {
     constexpr double deepest = 700;  // exp(-700) is near the smallest number there is
+    // Light beyond the critical angle meets no load at either face: only the layer's own k tanh(k d / 2)
+    // keeps its pivots above rounding. So a layer is never thinner than 1e-11 of its fastest mode's length,
+    // which changes T by as much.
+    double fastest = decay[0];
+    for (std::size_t i = 1; i < n; ++i) fastest = decay[i] > fastest ? decay[i] : fastest;
+    const double thinnest = fastest > 1e-250 ? 1e-11 / fastest : 1e-200;
     for (std::size_t i = 0; i < n; ++i) {
         const double k = decay[i];
         for (std::size_t w = 0; w < lanes; ++w) {
-            // A thickness of nothing stands for 0: its reciprocals are large but cancel.
-            const double d = thickness[w] > 1e-200 ? thickness[w] : 1e-200;
+            const double d = thickness[w] > thinnest ? thickness[w] : thinnest;
             const double depth = k * d < deepest ? k * d : deepest;
             const Exponential passed = exponential(-depth);
             const double reach = depth > 1e-290 ? -passed.minus_one / k : d;

@@ -1,20 +1,101 @@
-from typing import Any, Final, Literal
+"""Types of the compiled module. help(skinglow.<name>) has units, ranges and sources."""
+
+from collections.abc import Sequence
+from typing import Any, ClassVar, Final, Literal, TypedDict, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[np.float64]
+_Array = NDArray[np.float64]
+_Rgb = tuple[float, float, float]
+_LightKind = Literal["POINT", "SUN", "SPOT", "AREA"]
+_Incidence = Literal["normal", "diffuse"] | float  # a number: the cosine to the normal
 
-def __getattr__(name: str) -> Any: ...  # noqa: ANN401  what is not typed below
+__version__: Final[str]
 
-# Tables (bind_core.cpp)
+# Lights (bind_light.cpp)
+
+class Light:
+    def __init__(
+        self,
+        kind: _LightKind = "POINT",
+        color: ArrayLike = (1.0, 1.0, 1.0),
+        position: ArrayLike = (0.0, 0.0, 0.0),
+        direction: ArrayLike = (0.0, 0.0, -1.0),
+        power: float = 1.0,
+        name: str = "",
+        visible: bool = True,
+        *,
+        radius: float = 0.0,
+        soft_falloff: bool = True,
+        sun_angle: float = 0.0,
+        spot_angle: float = 0.7853981633974483,
+        spot_blend: float = 0.15,
+        spot_cosine: bool = False,
+        area_shape: Literal["RECTANGLE", "SQUARE", "ELLIPSE", "DISK"] = "RECTANGLE",
+        size_x: float = 0.0,
+        size_y: float = 0.0,
+        tangent: ArrayLike = (1.0, 0.0, 0.0),
+        spread: float = 3.141592653589793,
+    ) -> None: ...
+    @property
+    def kind(self) -> _LightKind: ...
+    @property
+    def color(self) -> _Array: ...
+    @property
+    def position(self) -> _Array: ...
+    @property
+    def direction(self) -> _Array: ...
+    @property
+    def power(self) -> float: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def visible(self) -> bool: ...
+    @property
+    def radius(self) -> float: ...
+    @property
+    def soft_falloff(self) -> bool: ...
+    @property
+    def sun_angle(self) -> float: ...
+    @property
+    def spot_angle(self) -> float: ...
+    @property
+    def spot_blend(self) -> float: ...
+    @property
+    def spot_cosine(self) -> bool: ...
+    @property
+    def area_shape(self) -> Literal["RECTANGLE", "ELLIPSE"]: ...
+    @property
+    def size_x(self) -> float: ...
+    @property
+    def size_y(self) -> float: ...
+    @property
+    def tangent(self) -> _Array: ...
+    @property
+    def spread(self) -> float: ...
+    @property
+    def is_on(self) -> bool: ...
+
+# Weights and tables (bind_core.cpp)
+
+PAPER_BLOOD_WEIGHT: Final[_Rgb]
+
+@overload
+def attenuation(distance: float, coefficients: ArrayLike = (1.0, 0.0, 1.0)) -> float: ...
+@overload
+def attenuation(
+    distance: NDArray[Any] | Sequence[Any], coefficients: ArrayLike = (1.0, 0.0, 1.0)
+) -> _Array: ...  # a float for an array without dimensions
+def light_weights(lights: Sequence[Light], point: ArrayLike, coefficients: ArrayLike = (1.0, 0.0, 1.0)) -> _Array: ...
+def light_weight(lights: Sequence[Light], point: ArrayLike, coefficients: ArrayLike = (1.0, 0.0, 1.0)) -> _Array: ...
 
 class BaseLut:
     def __init__(self, values: ArrayLike, max_thickness_mm: float) -> None: ...
     @property
-    def matrices(self) -> Array: ...
+    def matrices(self) -> _Array: ...
     @property
-    def thickness_mm(self) -> Array: ...
+    def thickness_mm(self) -> _Array: ...
     @property
     def size(self) -> int: ...
     @property
@@ -23,7 +104,77 @@ class BaseLut:
     def texel_mapping(self) -> tuple[float, float]: ...
     def __len__(self) -> int: ...
 
+def recolour(base: BaseLut, weight: ArrayLike) -> _Array: ...
+def six_gaussian_lookup(size: int = 256, max_thickness_mm: float = 12.0) -> _Array: ...
+def six_gaussian_base(size: int = 256, max_thickness_mm: float = 12.0) -> BaseLut: ...
+
+# Slab (bind_slab.cpp)
+
+class Layer:
+    refractive_index: float
+    absorption: float
+    scattering: float
+    anisotropy: float
+    thickness: float
+    def __init__(
+        self,
+        refractive_index: float = 1.4,
+        absorption: float = 0.0,
+        scattering: float = 0.0,
+        anisotropy: float = 0.0,
+        thickness: float = 0.0,
+    ) -> None: ...
+    def __eq__(self, other: object) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+class SlabResult:
+    """Made by slab alone."""
+
+    @property
+    def reflectance(self) -> float: ...
+    @property
+    def transmittance(self) -> float: ...
+    @property
+    def unscattered(self) -> float: ...
+    @property
+    def absorbed(self) -> _Array: ...
+
+class _DirectionalTransmittance(TypedDict):
+    mu: _Array
+    weight: _Array
+    transmittance: _Array
+
+def slab(
+    layers: Sequence[Layer],
+    incidence: _Incidence = "normal",
+    n_above: float = 1.0,
+    n_below: float = 1.0,
+    streams: int = 16,
+) -> SlabResult: ...
+def directional_transmittance(
+    layers: Sequence[Layer], n_above: float = 1.0, n_below: float = 1.0, streams: int = 16
+) -> _DirectionalTransmittance: ...
+
+class ThicknessCurve:
+    def __init__(
+        self,
+        layers: Sequence[Layer],
+        variable_layer: int = 0,
+        incidence: _Incidence = "diffuse",
+        n_above: float = 1.0,
+        n_below: float = 1.0,
+        streams: int = 16,
+    ) -> None: ...
+    def transmittance(self, thickness_mm: ArrayLike) -> _Array: ...
+    @property
+    def decay_rate(self) -> float: ...
+
 # Skin (bind_tissue.cpp)
+
+TISSUE_PARAMETERS: Final[dict[str, tuple[float, float, float, str, str]]]
+"""Default, minimum, maximum, unit and description by name."""
+
+TISSUE_PRESETS: Final[dict[str, Tissue]]
 
 class Tissue:
     def __init__(
@@ -37,7 +188,17 @@ class Tissue:
         refractive_index: float = 1.4,
         cartilage_fraction: float = 0.0,
     ) -> None: ...
-    def replace(self, **changes: float) -> Tissue: ...
+    def replace(
+        self,
+        *,
+        melanin_fraction: float = ...,
+        blood_fraction: float = ...,
+        oxygen_saturation: float = ...,
+        epidermal_thickness_mm: float = ...,
+        scattering_scale: float = ...,
+        refractive_index: float = ...,
+        cartilage_fraction: float = ...,
+    ) -> Tissue: ...
     @property
     def melanin_fraction(self) -> float: ...
     @property
@@ -57,16 +218,15 @@ class Tissue:
     def __eq__(self, other: object) -> bool: ...
     def __hash__(self) -> int: ...
 
-TISSUE_PARAMETERS: Final[dict[str, tuple[float, float, float, str, str]]]
-TISSUE_PRESETS: Final[dict[str, Tissue]]
-
 class SkinLutReport:
+    """Made by base_lut_report and base_lut_by_plan alone."""
+
     @property
     def streams(self) -> int: ...
     @property
-    def thickness_nodes_mm(self) -> Array: ...
+    def thickness_nodes_mm(self) -> _Array: ...
     @property
-    def wavelengths_nm(self) -> Array: ...
+    def wavelengths_nm(self) -> _Array: ...
     @property
     def pairs_solved(self) -> int: ...
     @property
@@ -84,11 +244,11 @@ def transmittance(
     tissue: Tissue,
     thickness_mm: ArrayLike,
     wavelength_nm: ArrayLike,
-    incidence: Literal["normal", "diffuse"] | float = "diffuse",
+    incidence: _Incidence = "diffuse",
     streams: int = 16,
-) -> Array: ...
-def diffusion_transmittance(tissue: Tissue, thickness_mm: ArrayLike, wavelength_nm: ArrayLike) -> Array: ...
-def skin_layers(tissue: Tissue, total_thickness_mm: float, wavelength_nm: float) -> list[Any]: ...
+) -> _Array: ...
+def diffusion_transmittance(tissue: Tissue, thickness_mm: ArrayLike, wavelength_nm: ArrayLike) -> _Array: ...
+def skin_layers(tissue: Tissue, total_thickness_mm: float, wavelength_nm: float) -> list[Layer]: ...
 def base_lut(tissue: Tissue, size: int = 256, max_thickness_mm: float = 12.0, tolerance: float = 1e-3) -> BaseLut: ...
 def base_lut_report(
     tissue: Tissue, size: int = 256, max_thickness_mm: float = 12.0, tolerance: float = 1e-3
@@ -106,15 +266,112 @@ def lut_error(lut: BaseLut, exact: BaseLut) -> float: ...
 
 # Spectra (bind_spectrum.cpp)
 
-SAMPLE_WAVELENGTHS_NM: Final[Array]
-D65_SPECTRUM: Final[Array]
+SAMPLE_WAVELENGTHS_NM: Final[_Array]
+D65_SPECTRUM: Final[_Array]
 
-def rgb_spectrum(rgb: ArrayLike) -> Array: ...
-def blackbody_spectrum(temperature_k: float) -> Array: ...
-def line_spectrum(centre_nm: float, fwhm_nm: float) -> Array: ...
-def tabulated_spectrum(wavelength_nm: ArrayLike, power: ArrayLike) -> Array: ...
-def spectral_colour(spectrum: ArrayLike, transmittance: ArrayLike | None = None) -> Array: ...
-def transmission_matrix(transmittance: ArrayLike) -> Array: ...
+def rgb_spectrum(rgb: ArrayLike) -> _Array: ...
+def blackbody_spectrum(temperature_k: float) -> _Array: ...
+def line_spectrum(centre_nm: float, fwhm_nm: float) -> _Array: ...
+def tabulated_spectrum(wavelength_nm: ArrayLike, power: ArrayLike) -> _Array: ...
+def spectral_colour(spectrum: ArrayLike, transmittance: ArrayLike | None = None) -> _Array: ...
+def transmission_matrix(transmittance: ArrayLike) -> _Array: ...
+
+# Irradiance (bind_irradiance.cpp)
+
+LEGACY_AREA_POWER_FACTOR: Final[float]
+"""pi / 4: the factor on the power of an area light in Blender 3.4."""
+
+class AngularWeight:
+    def __init__(self, mu: ArrayLike, transmittance: ArrayLike) -> None: ...
+    def at(self, mu: ArrayLike) -> _Array: ...
+
+class Environment:
+    def __init__(self, radiance: ArrayLike) -> None: ...
+    def irradiance(self, normals: ArrayLike, angular_weight: AngularWeight | None = None) -> _Array: ...
+    @property
+    def mean_irradiance(self) -> _Array: ...
+    @property
+    def coefficients(self) -> _Array: ...
+
+def irradiances(lights: Sequence[Light], point: ArrayLike, tolerance: float = 1e-7) -> _Array: ...
+def irradiance(lights: Sequence[Light], point: ArrayLike, tolerance: float = 1e-7) -> _Array: ...
+def surface_irradiance(
+    lights: Sequence[Light],
+    points: ArrayLike,
+    normals: ArrayLike,
+    *,
+    angular_weight: AngularWeight | None = None,
+    environment: Environment | None = None,
+    tolerance: float = 1e-7,
+    threads: int = 0,
+) -> _Array: ...
+def far_side_irradiance(
+    lights: Sequence[Light],
+    vertices: ArrayLike,
+    normals: ArrayLike,
+    depth: ArrayLike,
+    *,
+    angular_weight: AngularWeight | None = None,
+    environment: Environment | None = None,
+    tolerance: float = 1e-7,
+    threads: int = 0,
+) -> _Array: ...
+def exposure_factor(stops: float) -> float: ...
+def unnormalised_power_factor(light: Light) -> float: ...
+def black_body_colour(kelvin: float) -> _Array: ...
+def legacy_sun_power_factor(angle: float) -> float: ...
+
+# Choice of lights and what each does (bind_light_choice.cpp)
+
+class _DroppedLights(TypedDict):
+    lights: list[int]
+    reason: Literal["off", "unreachable", "negligible"]
+    bound: _Array
+
+class _CullingResult(TypedDict):
+    kept: list[int]
+    dropped: list[_DroppedLights]
+    bound: _Array
+
+class _LightReportEntry(TypedDict):
+    index: int
+    name: str
+    kind: _LightKind
+    distance: float
+    axis_angle: float
+    normal_angle: float | None
+    weight: _Array
+    share: float
+    state: Literal[
+        "shines",
+        "hidden",
+        "zero power",
+        "black",
+        "no width",
+        "occluded",
+        "culled",
+        "behind lamp",
+        "outside cone",
+        "behind",
+        "too weak",
+    ]
+
+class LightTree:
+    def __init__(self, lights: Sequence[Light]) -> None: ...
+    def cull(self, box_min: ArrayLike, box_max: ArrayLike, tolerance: float) -> _CullingResult: ...
+    def __len__(self) -> int: ...
+
+def merge_identical(lights: Sequence[Light]) -> list[Light]: ...
+def object_irradiance_error(
+    lights: Sequence[Light], point: ArrayLike, box_min: ArrayLike, box_max: ArrayLike
+) -> _Array: ...
+def light_report(
+    lights: Sequence[Light],
+    point: ArrayLike,
+    normal: ArrayLike | None = None,
+    occluded: Sequence[bool] = [],
+    kept: Sequence[int] | None = None,
+) -> list[_LightReportEntry]: ...
 
 # POV-Ray (bind_povray.cpp)
 
@@ -130,11 +387,11 @@ def povray_scene(
     ortho_width: float | None = None,
     shift: ArrayLike = (0.0, 0.0),
     mode: Literal["existing", "paper", "physical"] = "paper",
-    base: object | None = None,
+    base: BaseLut | None = None,
     size: int | None = None,
     max_thickness_mm: float | None = None,
     image: str = "",
-    lights: list[object] = ...,
+    lights: Sequence[Light] = [],
     point: ArrayLike = (0.0, 0.0, 0.0),
     coefficients: ArrayLike = (1.0, 0.0, 1.0),
     blood_weight: ArrayLike = (1.8, 0.5, 0.4),

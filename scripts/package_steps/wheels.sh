@@ -54,8 +54,11 @@ build_wheel() {
         glm_DIR="$portable/headers/glm" embree_DIR="$portable/embree/lib/cmake/embree-$embree_version"; do
         settings+=("cmake.define.$setting")
     done
+    # Loading a module looks all its symbols up: what is missing shows here.
     {
         "$python" -m pip wheel --no-build-isolation --no-deps --wheel-dir "$work" "${settings[@]/#/--config-settings=}" . &&
+            "$python" -m zipfile -e "$work"/*.whl "$work/unpacked" &&
+            "$python" -c 'import ctypes, sys; [ctypes.CDLL(path) for path in sys.argv[1:]]' "$work"/unpacked/skinglow/*.so &&
             "$python" -m auditwheel repair --only-plat --wheel-dir "$packages" "$work"/*.whl
     } >"$work/log.txt" 2>&1 ||
         { tail -n 30 "$work/log.txt" >&2; fail "the wheel for Python $1 did not build; the whole log: $work/log.txt"; }

@@ -22,9 +22,7 @@ LEGACY_PYTHONS = ("cp310", "cp311")
 def main(project: Path, packages: Path, script_access: Path) -> None:
     version = project_version(project)
     if addon_version(project) != version:
-        sys.exit(
-            f"the add-on's bl_info says {addon_version(project)}, the project is {version}: make them equal"
-        )
+        sys.exit(f"the add-on's bl_info says {addon_version(project)}, the project is {version}: make them equal")
     wheels = {w.name.split("-")[2]: w for w in sorted(packages.glob(f"skinglow-{version}-*.whl"))}
     with tempfile.TemporaryDirectory() as folder:
         extension_wheels = [wheels[tag] for tag in EXTENSION_PYTHONS if tag in wheels] + [script_access]

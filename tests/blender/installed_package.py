@@ -28,9 +28,7 @@ def addon_name():
 def install(package):
     """As a person does: from the file, enabled, kept in the preferences."""
     if TAKES_EXTENSIONS:
-        bpy.ops.extensions.package_install_files(
-            repo="user_default", filepath=package, enable_on_install=True
-        )
+        bpy.ops.extensions.package_install_files(repo="user_default", filepath=package, enable_on_install=True)
     else:
         bpy.ops.preferences.addon_install(filepath=package)
         bpy.ops.preferences.addon_enable(module=ADDON)
@@ -50,6 +48,7 @@ def use():
     found["addon"] = sb.make_skin.__code__.co_filename
     found["functions"] = [name for name in ("make_skin", "update", "lut") if not callable(getattr(sb, name))]
     found |= follow_a_lamp(sg, sb)
+    found["refused"] = [refusal(sg.thickness, [(0, 0, 0)], [(0, 1, 2)]), refusal(sg.attenuation, -1.0)]
     found["rays"] = sys.modules["skinglow._rays"].__file__
     found["render"] = render()
     found["warnings"] = warnings()
@@ -86,6 +85,15 @@ def follow_a_lamp(sg, sb):
         weight = [blood + color / (1.0 + x * x) for blood, color in pairs]
         found["expected"].append(sg.recolour(sg.six_gaussian_base(256, 24.0), weight)[0].tolist())
     return found
+
+
+def refusal(function, *arguments):
+    """How a function of the core turns bad arguments down; each module has to know its own exceptions."""
+    try:
+        function(*arguments)
+    except Exception as error:
+        return [type(error).__name__, str(error)]
+    return []
 
 
 def render():

@@ -41,7 +41,12 @@ def check_hide_and_exclude(_work):
     assert_fresh(obj)
     both = sb.lut(obj, depsgraph())
     layer = bpy.context.view_layer.layer_collection.children["Rig"]
-    for owner, name in ((layer, "exclude"), (layer, "hide_viewport"), (collection, "hide_viewport"), (fill, "hide_viewport")):
+    for owner, name in (
+        (layer, "exclude"),
+        (layer, "hide_viewport"),
+        (collection, "hide_viewport"),
+        (fill, "hide_viewport"),
+    ):
         setattr(owner, name, True)
         assert_fresh(obj)
         assert_shows(obj, paper_table([key]))
@@ -367,7 +372,9 @@ def check_remove_without_trace(_work):
     links = {(a.from_socket.name, a.to_socket.name) for a in material.node_tree.links}
     obj, other = patch("One", material=material), patch("Two", material=material)
     attributes = set(obj.data.attributes.keys())
-    before = {name: len(getattr(bpy.data, name)) for name in ("images", "node_groups", "materials", "meshes", "objects")}
+    before = {
+        name: len(getattr(bpy.data, name)) for name in ("images", "node_groups", "materials", "meshes", "objects")
+    }
     for each in (obj, other):
         sb.make_skin(each, thickness=THIN)
     sb.remove_skin(obj)

@@ -113,7 +113,9 @@ def check_open_mirrored_and_messy_meshes(_work):
     depsgraph()
     np.testing.assert_allclose(sb.make_skin(ball).thickness_mm, plain, rtol=0.02)
     fin = bpy.data.meshes.new("Fin")
-    fin.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (9, 9, 9)], [], [(0, 1, 2), (0, 1, 3), (0, 1, 4)])
+    fin.from_pydata(
+        [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (9, 9, 9)], [], [(0, 1, 2), (0, 1, 3), (0, 1, 4)]
+    )
     messy = bpy.data.objects.new("Fin", fin)
     bpy.context.scene.collection.objects.link(messy)
     low, high = sb.make_skin(messy).thickness_mm
@@ -139,7 +141,7 @@ def check_export_without_camera_or_folder(work):
 
 
 def check_what_the_report_says(_work):
-    key, dark, hidden = lamp("Key"), lamp("Dark", energy=0.0), lamp("Hidden")
+    key, _dark, hidden = lamp("Key"), lamp("Dark", energy=0.0), lamp("Hidden")
     hidden.hide_viewport = True
     blind = lamp("Blind")
     blind.visible_diffuse = False

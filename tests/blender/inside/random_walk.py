@@ -233,7 +233,7 @@ class Walk:
                  self.duplicate_lamp, self.delete_lamp, self.rename_lamp, self.parent, self.constrain, self.key,
                  self.drive, self.exclude, self.hide_collection, self.close_eye, self.instance, self.move_empty,
                  self.delete_empty, self.frame, self.frame, self.add_skin, self.duplicate_skin, self.delete_skin,
-                 self.move_skin, self.mode, self.hide_lamp_in_renders, self.push_undo, self.undo, self.undo)  # fmt: skip
+                 self.move_skin, self.mode, self.hide_lamp_in_renders, self.push_undo, self.undo)  # fmt: skip
         seldom = (self.save_and_load, self.render, self.remove_skin, self.table_size)
         edit = self.random.choice(seldom if self.random.random() < 0.03 else often)
         edit()

@@ -1,4 +1,4 @@
-"""What the renderers show: each frame the lookup of that frame, on Cycles with and without persistent data, on EEVEE."""
+"""What renderers show: each frame the lookup of that frame, in Cycles with and without persistent data."""
 
 import bpy
 import numpy as np

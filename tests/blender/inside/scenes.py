@@ -35,7 +35,7 @@ def strips(count, size=2.0, material=None):
     """A square that looks up, in upright strips that share no vertex, so that each has a thickness of its own."""
     edges = [-size / 2 + size * i / count for i in range(count + 1)]
     vertices, faces = [], []
-    for left, right in zip(edges, edges[1:]):
+    for left, right in zip(edges, edges[1:], strict=False):
         n = len(vertices)
         vertices += [(left, -size / 2, 0), (right, -size / 2, 0), (right, size / 2, 0), (left, size / 2, 0)]
         faces.append((n, n + 1, n + 2, n + 3))
