@@ -38,6 +38,10 @@ def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
     if not any(type(update.id).__name__ not in HARMLESS for update in depsgraph.updates):
         return
     update_scene(depsgraph, only_live=True)
+    if STATE.look_again:
+        # Blender 4.5 was seen to move instanced lamps once more, unreported, after the evaluation that follows undo.
+        STATE.look_again = False
+        tag_skins()
 
 
 @guarded
@@ -78,9 +82,8 @@ def on_undo(_first: Any, _second: Any) -> None:  # noqa: ANN401
     Pixels are not undone but the nodes' images are, so that evaluation has to be reported whatever else it finds.
     """
     forget_all()
-    for obj in bpy.data.objects:
-        if obj.skinglow.enabled:
-            obj.update_tag(refresh={"OBJECT"})
+    tag_skins()
+    STATE.look_again = True
 
 
 @guarded
@@ -89,6 +92,13 @@ def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
     forget_all()
     if bpy.context.view_layer is not None and any(obj.skinglow.enabled for obj in bpy.data.objects):
         update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
+
+
+def tag_skins() -> None:
+    """Has the next evaluation report something, so that it is looked at."""
+    for obj in bpy.data.objects:
+        if obj.skinglow.enabled:
+            obj.update_tag(refresh={"OBJECT"})
 
 
 def forget_all() -> None:

@@ -23,10 +23,7 @@ coefficients = [(a, s / (1 - 0.715), 0.715) for a, s in zip(absorption, reduced,
 
 
 def by_core(streams):
-    curves = [
-        sg.ThicknessCurve([sg.Layer(INDEX, a, s, g)], 0, "diffuse", streams=streams)
-        for a, s, g in coefficients
-    ]
+    curves = [sg.ThicknessCurve([sg.Layer(INDEX, a, s, g)], 0, "diffuse", streams=streams) for a, s, g in coefficients]
     return np.array([curve.transmittance(thickness) for curve in curves])
 
 

@@ -17,9 +17,7 @@ COMMANDS = ("weights", "lut", "rig", "thickness", "povray", "compare")
 
 
 def skinglow(*arguments, code=0):
-    done = subprocess.run(
-        [PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120, check=False
-    )
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120, check=False)
     assert done.returncode == code, done.stdout + done.stderr
     assert not re.search(r"\b(nan|inf)\b", done.stdout, re.IGNORECASE), done.stdout
     return done

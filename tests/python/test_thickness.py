@@ -177,7 +177,5 @@ assert "embree" not in open("/proc/self/maps").read()
 skinglow.thickness([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
 assert "skinglow._rays" in sys.modules
 """
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, env=os.environ
-    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, env=os.environ)
     assert done.returncode == 0, done.stderr
