@@ -38,10 +38,6 @@ def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
     if not any(type(update.id).__name__ not in HARMLESS for update in depsgraph.updates):
         return
     update_scene(depsgraph, only_live=True)
-    if STATE.look_again:
-        # Blender 4.5 was seen to move instanced lamps once more, unreported, after the evaluation that follows undo.
-        STATE.look_again = False
-        tag_skins()
 
 
 @guarded
@@ -77,35 +73,27 @@ def on_render_end(_scene: bpy.types.Scene, _unused: None) -> None:
 
 @guarded
 def on_undo(_first: Any, _second: Any) -> None:  # noqa: ANN401
-    """Undo or redo: nothing remembered holds any more; the evaluation that follows computes all.
-
-    Pixels are not undone but the nodes' images are, so that evaluation has to be reported whatever else it finds.
-    """
-    forget_all()
-    tag_skins()
-    STATE.look_again = True
+    """Undo or redo: nothing remembered holds any more. Pixels are not undone, but what the nodes show is."""
+    start_afresh()
 
 
 @guarded
 def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
-    """A file was loaded. What is evaluated while it loads is not reported, so it is looked at here."""
-    forget_all()
-    if bpy.context.view_layer is not None and any(obj.skinglow.enabled for obj in bpy.data.objects):
-        update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
+    """A file was loaded."""
+    start_afresh()
 
 
-def tag_skins() -> None:
-    """Has the next evaluation report something, so that it is looked at."""
-    for obj in bpy.data.objects:
-        if obj.skinglow.enabled:
-            obj.update_tag(refresh={"OBJECT"})
+def start_afresh() -> None:
+    """Forgets all, evaluates and looks.
 
-
-def forget_all() -> None:
-    """Back to the state before the first update."""
+    Not every change is reported then: what is evaluated while a file loads is not, and what a handler tags is
+    evaluated again without a report (seen with instanced lamps after undo in Blender 4.5).
+    """
     STATE.rendering = False
     STATE.render_frame = None
     STATE.forget()
+    if bpy.context.view_layer is not None and any(obj.skinglow.enabled for obj in bpy.data.objects):
+        update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
 
 
 @guarded

@@ -35,7 +35,6 @@ class LiveState:
         self.faults: dict[str, str] = {}
         #: (node group, row) to the name and library of the object whose row it is.
         self.owners: dict[tuple[str, int], tuple[str, str | None]] = {}
-        self.look_again = False
         self.rendering = False
         self.render_frame: float | None = None
 
