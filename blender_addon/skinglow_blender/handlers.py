@@ -37,7 +37,8 @@ def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
     """Something was edited."""
     if not any(type(update.id).__name__ not in HARMLESS for update in depsgraph.updates):
         return
-    update_scene(depsgraph, only_live=True)
+    if update_scene(depsgraph, only_live=True):
+        look_again_soon()
 
 
 @guarded
@@ -73,27 +74,52 @@ def on_render_end(_scene: bpy.types.Scene, _unused: None) -> None:
 
 @guarded
 def on_undo(_first: Any, _second: Any) -> None:  # noqa: ANN401
-    """Undo or redo: nothing remembered holds any more. Pixels are not undone, but what the nodes show is."""
-    start_afresh()
+    """Undo or redo: nothing remembered holds any more. Pixels are not undone, but what the nodes show is.
+
+    The evaluation that follows is reported, as the skins are tagged. Evaluating here, before Blender does, can crash it.
+    """
+    forget_all()
+    for obj in bpy.data.objects:
+        if obj.skinglow.enabled:
+            obj.update_tag(refresh={"OBJECT"})
+    look_again_soon()
+
+
+def look_again_soon() -> None:
+    """Has the windows' scenes looked at once more in a moment.
+
+    What a handler writes makes Blender evaluate a second time without a report, and Blender 4.5 was seen to move
+    instanced lamps of hidden collections only then. Without a window there are no timers: scripts call update().
+    """
+    if not bpy.app.background and not bpy.app.timers.is_registered(look_again):
+        bpy.app.timers.register(look_again, first_interval=0.05)
+
+
+def look_again() -> None:
+    """Looks at what the windows show."""
+    if STATE.rendering:
+        return
+    try:
+        for window in bpy.context.window_manager.windows:
+            if window.view_layer.depsgraph is not None:
+                update_scene(window.view_layer.depsgraph, only_live=True)
+    except (SkinError, ValueError) as error:
+        STATE.faults["*"] = str(error)
 
 
 @guarded
 def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
-    """A file was loaded."""
-    start_afresh()
+    """A file was loaded. What is evaluated while it loads is not reported, so it is looked at here."""
+    forget_all()
+    if bpy.context.view_layer is not None and any(obj.skinglow.enabled for obj in bpy.data.objects):
+        update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
 
 
-def start_afresh() -> None:
-    """Forgets all, evaluates and looks.
-
-    Not every change is reported then: what is evaluated while a file loads is not, and what a handler tags is
-    evaluated again without a report (seen with instanced lamps after undo in Blender 4.5).
-    """
+def forget_all() -> None:
+    """Back to the state before the first update."""
     STATE.rendering = False
     STATE.render_frame = None
     STATE.forget()
-    if bpy.context.view_layer is not None and any(obj.skinglow.enabled for obj in bpy.data.objects):
-        update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
 
 
 @guarded
@@ -138,4 +164,6 @@ def unregister() -> None:
         handlers = getattr(bpy.app.handlers, event)
         if handler in handlers:
             handlers.remove(handler)
+    if bpy.app.timers.is_registered(look_again):
+        bpy.app.timers.unregister(look_again)
     STATE.forget()

@@ -260,11 +260,15 @@ def check_random_walk(work):
     render_settings(2, 2)
     walk = Walk(seed, work)
     walk.push_undo()
-    done, compared, tables = [], 0, set()
+    done, compared, late, tables = [], 0, 0, set()
     try:
         for _ in range(steps):
             done.append(walk.step())
             graph = depsgraph()
+            # Lamps that Blender itself moves after its report (handlers.py): a window looks again, here the script does.
+            again = sb.update(graph)
+            late += bool(again)
+            assert all(" in " in rebuilt.why for rebuilt in again), [rebuilt.why for rebuilt in again]
             for obj in walk.skins():
                 shown = sb.lut(obj, graph)
                 np.testing.assert_allclose(shown, expected(obj, graph), rtol=5e-6, err_msg=obj.name)
@@ -273,7 +277,8 @@ def check_random_walk(work):
             assert len({o.skinglow.row for o in walk.skins()}) == len(walk.skins())
     except BaseException as error:
         raise AssertionError(f"seed {seed}, step {len(done)}, the last edits: {done[-12:]}\n{error}") from error
+    assert late <= steps / 100, late
     assert len(tables) > steps / 10, len(tables)
     images = [image.name for image in bpy.data.images if "Skinglow" in image.name]
     assert len(images) <= 4, images
-    return {"seed": seed, "steps": len(done), "compared": compared, "different": len(tables)}
+    return {"seed": seed, "steps": len(done), "compared": compared, "late": late, "different": len(tables)}
