@@ -28,11 +28,14 @@ install_packages() {
     fi
 }
 
-# find_python 3.11: an interpreter of that version that can make virtual environments, from PATH or pyenv.
+# find_python 3.11: an interpreter of that version that can make virtual environments and has its C headers, from PATH or
+# pyenv.
 find_python() {
-    local candidate
+    local candidate check="import ensurepip, os, sys, sysconfig, venv
+header = os.path.join(sysconfig.get_path('include'), 'Python.h')
+sys.exit('%d.%d' % sys.version_info[:2] != '$1' or not os.path.exists(header))"
     for candidate in "python$1" python3 /usr/bin/python3 "${PYENV_ROOT:-$HOME/.pyenv}"/versions/"$1".*/bin/python3; do
-        if "$candidate" -c "import sys, venv, ensurepip; sys.exit('%d.%d' % sys.version_info[:2] != '$1')" 2>/dev/null; then
+        if "$candidate" -c "$check" 2>/dev/null; then
             command -v "$candidate"
             return
         fi

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any
 
-from . import bundled_core, handlers, light_listing, operators, panel, povray_export, skin, skin_settings
+from . import bundled_core, handlers, light_listing, lut_preview, operators, panel, povray_export, skin, skin_settings
 from .errors import SkinError
 from .live_update import Rebuilt
 from .skin import SkinState
@@ -39,7 +39,7 @@ __all__ = [
     "update",
 ]
 
-_PARTS = (bundled_core, skin_settings, operators, panel, handlers)
+_PARTS = (bundled_core, skin_settings, lut_preview, operators, panel, handlers)
 _registered = False
 
 

@@ -76,7 +76,7 @@ def on_render_end(_scene: bpy.types.Scene, _unused: None) -> None:
 def on_undo(_first: Any, _second: Any) -> None:  # noqa: ANN401
     """Undo or redo: nothing remembered holds any more. Pixels are not undone, but what the nodes show is.
 
-    The evaluation that follows is reported, as the skins are tagged. Evaluating here, before Blender does, can crash it.
+    Evaluation follows and is reported, as the skins are tagged. Evaluating here, before Blender does, can crash it.
     """
     forget_all()
     for obj in bpy.data.objects:

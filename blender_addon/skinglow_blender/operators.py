@@ -1,110 +1,177 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the buttons do: the functions of skin.py and povray_export.py, with undo, progress and errors in words."""
+"""What the panel's buttons do; each can be undone, and says in words what went wrong."""
 
 from collections.abc import Callable
-from typing import Any
 
 import bpy
+from bpy.props import BoolProperty, StringProperty
 
-from . import povray_export, skin
+from . import povray_export, skin, thickness_attribute
+from .base_image import base_of_image
 from .errors import SkinError
-
-UNDOABLE = {"REGISTER", "UNDO"}
-
-
-def _in_words(operator: bpy.types.Operator, work: Callable[[], Any]) -> set[str]:
-    """Runs the work; what a user can mend is said in the status bar, and nothing was changed."""
-    try:
-        work()
-    except (SkinError, ValueError) as error:
-        operator.report({"ERROR"}, str(error))
-        return {"CANCELLED"}
-    return {"FINISHED"}
+from .live_update import STATE
 
 
-class SkinOperator(bpy.types.Operator):
-    """Base of those that work on the active object."""
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return context.object is not None and context.object.type == "MESH" and context.object.skinglow.enabled
+def _skins(context: bpy.types.Context) -> list[bpy.types.Object]:
+    return [o for o in context.selected_objects if o.type == "MESH" and o.skinglow.enabled]
 
 
-class SKINGLOW_OT_make_skin(bpy.types.Operator):
-    bl_idname = "skinglow.make_skin"
-    bl_label = "Make It Glow"
-    bl_description = "Measure the thickness of the selected meshes and add the light coming through to their materials"
-    bl_options = UNDOABLE
+class _SkinOperator:
+    """Turns what the add-on raises into a message of Blender's."""
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return any(obj.type == "MESH" for obj in context.selected_objects)
+    bl_options = {"REGISTER", "UNDO"}
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        manager = context.window_manager
-        meshes = [obj for obj in context.selected_objects if obj.type == "MESH"]
-        manager.progress_begin(0, len(meshes))
+    def attempt(self, action: Callable[[], str]) -> set[str]:
         try:
-            for done, obj in enumerate(meshes):
-                manager.progress_update(done)
-                if _in_words(self, lambda obj=obj: skin.make_skin(obj)) == {"CANCELLED"}:
-                    return {"CANCELLED"}
-        finally:
-            manager.progress_end()
+            self.report({"INFO"}, action())
+        except (SkinError, ValueError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         return {"FINISHED"}
 
 
-class SKINGLOW_OT_update(SkinOperator):
-    bl_idname = "skinglow.update"
-    bl_label = "Update Now"
-    bl_description = (
-        "Measure the mesh if it changed and compute the lookup for the lights as they are now, also where Live is off"
-    )
+class SKINGLOW_OT_make(_SkinOperator, bpy.types.Operator):  # noqa: N801  Blender's naming
+    bl_idname = "skinglow.make"
+    bl_label = "Make Skin Glow"
+    bl_description = "Measure the selected meshes' thickness and let the light of your lamps through, live"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return context.mode == "OBJECT" and any(o.type == "MESH" for o in context.selected_objects)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        return _in_words(self, lambda: skin.make_skin(context.object))
+        meshes = [o for o in context.selected_objects if o.type == "MESH"]
+
+        def make() -> str:
+            states = [skin.make_skin(obj) for obj in meshes]
+            return "; ".join(f"{s.name}: {s.thickness_mm[0]:.2f} to {s.thickness_mm[1]:.2f} mm thick" for s in states)
+
+        return self.attempt(make)
 
 
-class SKINGLOW_OT_remove(SkinOperator):
+class SKINGLOW_OT_remove(_SkinOperator, bpy.types.Operator):  # noqa: N801
     bl_idname = "skinglow.remove"
     bl_label = "Remove"
-    bl_description = "Take the glow, its node, its images and the thickness away again"
-    bl_options = UNDOABLE
+    bl_description = "Take away all that the add-on brought to the selected skins; their materials are as before"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return context.mode == "OBJECT" and bool(_skins(context))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        return _in_words(self, lambda: skin.remove_skin(context.object))
+        def remove() -> str:
+            skins = _skins(context)
+            for obj in skins:
+                skin.remove_skin(obj)
+            return f"{len(skins)} skins removed"
+
+        return self.attempt(remove)
 
 
-class SKINGLOW_OT_export_povray(SkinOperator):
+class SKINGLOW_OT_reset(_SkinOperator, bpy.types.Operator):  # noqa: N801
+    bl_idname = "skinglow.reset"
+    bl_label = "Reset"
+    bl_description = "Set everything about the selected skins back to the defaults; the measured thickness stays"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return bool(_skins(context))
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        def reset() -> str:
+            for obj in _skins(context):
+                skin.reset_settings(obj)
+            return "Back to the defaults"
+
+        return self.attempt(reset)
+
+
+class SKINGLOW_OT_update(_SkinOperator, bpy.types.Operator):  # noqa: N801
+    bl_idname = "skinglow.update"
+    bl_label = "Update Now"
+    bl_description = "Compute every skin afresh, also those that are not live; base lookup images are read again"
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        def update() -> str:
+            base_of_image.cache_clear()
+            STATE.forget()
+            return f"{len(skin.update(context.evaluated_depsgraph_get()))} skins computed"
+
+        return self.attempt(update)
+
+
+class SKINGLOW_OT_bake(_SkinOperator, bpy.types.Operator):  # noqa: N801
+    bl_idname = "skinglow.bake"
+    bl_label = "Measure Thickness"
+    bl_description = "Measure the active skin's thickness again, mm; the pointer shows how far it is"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        obj = context.object
+        return context.mode == "OBJECT" and obj is not None and obj.type == "MESH" and obj.skinglow.enabled
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        manager = context.window_manager
+
+        def show(done: float) -> bool:
+            manager.progress_update(100.0 * done)
+            return True
+
+        def bake() -> str:
+            manager.progress_begin(0.0, 100.0)
+            try:
+                thickness_attribute.store(
+                    context.object,
+                    thickness_attribute.measure(thickness_attribute.read_geometry(context.object, context.scene), show),
+                )
+            finally:
+                manager.progress_end()
+            return f"{context.object.name}: {len(context.object.data.vertices)} vertices measured"
+
+        return self.attempt(bake)
+
+
+class SKINGLOW_OT_export_povray(_SkinOperator, bpy.types.Operator):  # noqa: N801
     bl_idname = "skinglow.export_povray"
     bl_label = "Export to POV-Ray"
-    bl_description = "Write the skin, its lights and its lookup as a POV-Ray 3.7 scene into a folder"
+    bl_description = "Write the scene's skins with camera, lamps and lookup as POV-Ray files into a folder"
+    bl_options = {"REGISTER"}
 
-    directory: bpy.props.StringProperty(subtype="DIR_PATH", description="Folder to write to")
+    directory: StringProperty(subtype="DIR_PATH", description="Folder to write into")
+    surface: BoolProperty(
+        name="Surface", default=True, description="Also the surface; off: only the light coming through"
+    )
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        depsgraph = context.evaluated_depsgraph_get()
-        folder = bpy.path.abspath(self.directory)
-        return _in_words(self, lambda: povray_export.export_povray(depsgraph, folder, context.object))
+        def export() -> str:
+            graph = context.evaluated_depsgraph_get()
+            files = povray_export.export_povray(graph, bpy.path.abspath(self.directory), surface=self.surface)
+            return f"{len(files)} files written to {self.directory}"
+
+        return self.attempt(export)
 
 
 CLASSES = (
-    SKINGLOW_OT_make_skin,
-    SKINGLOW_OT_update,
+    SKINGLOW_OT_make,
     SKINGLOW_OT_remove,
+    SKINGLOW_OT_reset,
+    SKINGLOW_OT_update,
+    SKINGLOW_OT_bake,
     SKINGLOW_OT_export_povray,
 )
 
 
 def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    """Adds the operators."""
+    for each in CLASSES:
+        bpy.utils.register_class(each)
 
 
 def unregister() -> None:
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    """Takes them away."""
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)

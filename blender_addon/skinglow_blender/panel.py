@@ -3,74 +3,105 @@
 
 import bpy
 
+from .light_listing import light_report
 from .live_update import STATE
-
-TISSUE = (
-    "preset",
-    "melanin_fraction",
-    "blood_fraction",
-    "oxygen_saturation",
-    "epidermal_thickness_mm",
-    "scattering_scale",
-    "cartilage_fraction",
-    "refractive_index",
-)
+from .lut_preview import icon_of
+from .skin_settings import TISSUE_SLIDERS
+from .thickness_attribute import unit_mm
 
 
-def draw_skin(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
-    """One button for a mesh that is no skin yet; for a skin what its mode asks for, and no more."""
-    obj = context.object
-    if obj is None or obj.type != "MESH":
-        layout.label(text="Select a mesh", icon="INFO")
-        return
-    settings = obj.skinglow
-    if not settings.enabled:
-        layout.operator("skinglow.make_skin", icon="LIGHT_SUN")
-        return
-    fault = STATE.faults.get(obj.name_full)
-    if fault is not None:
+class _SkinPanel:
+    bl_label = "Skinglow"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        obj = context.object
+        _draw_faults(layout)
+        if obj is None or obj.type != "MESH" or not obj.skinglow.enabled:
+            layout.operator("skinglow.make", icon="LIGHT_SUN")
+            if obj is not None and obj.type == "MESH":
+                layout.label(text=f"{max(obj.dimensions) * unit_mm(obj, context.scene):.4g} mm across")
+                layout.prop(obj.skinglow, "unit_mm")
+            return
+        _draw_settings(layout, obj.skinglow)
+        icon = icon_of(obj, context.view_layer.depsgraph)
+        if icon:
+            layout.template_icon(icon_value=icon, scale=4.0)
+        row = layout.row(align=True)
+        row.prop(obj.skinglow, "live", toggle=True)
+        row.operator("skinglow.update", text="Update now")
+        _draw_lamps(layout, obj, context)
+        column = layout.column(align=True)
+        column.prop(obj.skinglow, "unit_mm")
+        column.prop(obj.skinglow, "rays")
+        column.prop(obj.skinglow, "min_openness")
+        column.operator("skinglow.bake")
+        layout.operator("skinglow.export_povray")
+        row = layout.row(align=True)
+        row.operator("skinglow.reset")
+        row.operator("skinglow.remove")
+
+
+def _draw_faults(layout: bpy.types.UILayout) -> None:
+    for fault in STATE.faults.values():
         box = layout.box()
         box.alert = True
-        for line in fault.split(": "):
-            box.label(text=line, icon="ERROR" if fault.startswith(line) else "NONE")
-    layout.use_property_split = True
-    layout.prop(settings, "mode")
+        words, line = fault.split(), ""
+        icon = "ERROR"
+        for word in [*words, ""]:
+            if len(line) + len(word) > 44 or not word:
+                box.label(text=line.strip(), icon=icon)
+                line, icon = "", "BLANK1"
+            line += word + " "
+
+
+def _draw_settings(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
+    layout.row().prop(settings, "mode", expand=True)
     layout.prop(settings, "strength")
-    column = layout.column()
-    if settings.mode == "PHYSICAL":
-        for name in TISSUE:
-            column.prop(settings, name)
-    elif settings.mode == "PAPER":
-        column.prop(settings, "base")
+    if settings.mode == "PAPER":
+        layout.prop(settings, "base")
         if settings.base == "IMAGE":
-            column.prop(settings, "base_image")
-        column.prop(settings, "blood_weight")
-        column.prop(settings, "attenuation")
-    column = layout.column(heading="Lookup")
-    for name in ("size", "max_thickness_mm", "unit_mm", "min_openness", "reference"):
-        column.prop(settings, name)
-    if settings.reference == "POINT":
-        column.prop(settings, "reference_point")
-    row = layout.row()
-    row.prop(settings, "live", toggle=True)
-    row.operator("skinglow.update", icon="FILE_REFRESH")
-    row = layout.row()
-    row.operator("skinglow.export_povray", icon="EXPORT")
-    row.operator("skinglow.remove", icon="X")
+            layout.template_ID(settings, "base_image", open="image.open")
+        layout.prop(settings, "blood_weight")
+        layout.prop(settings, "attenuation")
+    if settings.mode == "PHYSICAL" or (settings.mode == "PAPER" and settings.base == "SKIN"):
+        layout.prop(settings, "preset")
+        column = layout.column(align=True)
+        for name in TISSUE_SLIDERS:
+            column.prop(settings, name, slider=True)
+    column = layout.column(align=True)
+    column.prop(settings, "max_thickness_mm")
+    column.prop(settings, "size")
+    if settings.mode != "EXISTING":
+        layout.prop(settings, "reference")
+        if settings.reference == "POINT":
+            layout.prop(settings, "reference_point")
 
 
-class SKINGLOW_PT_sidebar(bpy.types.Panel):
-    bl_label = "Skinglow"
+def _draw_lamps(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context) -> None:
+    if obj.skinglow.mode == "EXISTING":
+        return
+    box = layout.box()
+    graph = context.view_layer.depsgraph
+    rows = light_report(obj, graph) if graph is not None else []
+    if not rows:
+        box.label(text="No lamps in this scene", icon="LIGHT")
+    for row in rows:
+        line = box.row()
+        line.label(text=row["name"], icon=f"LIGHT_{row['kind']}")
+        if row["reason"]:
+            line.label(text=row["reason"])
+        else:
+            line.label(text=f"{row['share']:.0%}  ({', '.join(f'{w:.3g}' for w in row['weight'])})")
+
+
+class SKINGLOW_PT_sidebar(_SkinPanel, bpy.types.Panel):  # noqa: N801  Blender's naming
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Skinglow"
 
-    def draw(self, context: bpy.types.Context) -> None:
-        draw_skin(self.layout, context)
 
-
-class SKINGLOW_PT_object(bpy.types.Panel):
-    bl_label = "Skinglow"
+class SKINGLOW_PT_object(_SkinPanel, bpy.types.Panel):  # noqa: N801
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
     bl_context = "object"
@@ -80,18 +111,17 @@ class SKINGLOW_PT_object(bpy.types.Panel):
     def poll(cls, context: bpy.types.Context) -> bool:
         return context.object is not None and context.object.type == "MESH"
 
-    def draw(self, context: bpy.types.Context) -> None:
-        draw_skin(self.layout, context)
-
 
 CLASSES = (SKINGLOW_PT_sidebar, SKINGLOW_PT_object)
 
 
 def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    """Adds the panels."""
+    for each in CLASSES:
+        bpy.utils.register_class(each)
 
 
 def unregister() -> None:
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    """Takes them away."""
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)

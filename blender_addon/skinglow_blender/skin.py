@@ -13,7 +13,7 @@ from .live_update import STATE, Rebuilt, update_scene
 from .lut_image import image_pair, read_row, remove_images, shown_image
 from .scene_reading import ROW_PROPERTY, read_skin
 from .skin_material import add_to_materials, remove_from_material
-from .skin_settings import apply_settings
+from .skin_settings import SETTING_NAMES, apply_settings
 
 
 class SkinState(NamedTuple):
@@ -129,8 +129,8 @@ def remove_skin(obj: bpy.types.Object) -> None:
     group = settings.group
     settings.enabled = False
     settings.property_unset("group")
-    for name in [p.identifier for p in settings.bl_rna.properties if not p.is_readonly]:
-        settings.property_unset(name)
+    reset_settings(obj)
+    settings.property_unset("row")
     obj.pop(ROW_PROPERTY, None)
     skins = [o for o in bpy.data.objects if o.skinglow.enabled]
     if not any(o.data == obj.data for o in skins):
@@ -144,6 +144,13 @@ def remove_skin(obj: bpy.types.Object) -> None:
         if group.users == 0:
             bpy.data.node_groups.remove(group)
         STATE.forget()
+    obj.update_tag(refresh={"OBJECT"})
+
+
+def reset_settings(obj: bpy.types.Object) -> None:
+    """All that `make_skin` takes back to its defaults; the skin stays one, and its thickness as it was measured."""
+    for name in SETTING_NAMES:
+        obj.skinglow.property_unset(name)
     obj.update_tag(refresh={"OBJECT"})
 
 

@@ -15,16 +15,14 @@ embree_unused=(scene_user_geometry scene_instance scene_quad_mesh scene_curves s
     rtcore_builder motion_derivative bezier_curve bspline_curve catmullrom_curve instance_intersector bvh_builder_hair
     bvh_builder_hair_mb 'curve_intersector_virtual_[a-z0-9_]*')
 
-# Debian's source package, from this machine's mirror, else from Debian's own; a wrong digest is an error.
+# Debian's source package, from this machine's own mirror; a wrong digest is an error.
 fetch_embree() {
-    local mirror
-    mirror=$(apt-get download --print-uris libembree-dev 2>/dev/null | sed -n "s/^'\(.*\/\)[^/]*' .*/\1/p")
-    for mirror in "$mirror" http://deb.debian.org/debian/pool/main/e/embree/; do
-        if [ -n "$mirror" ] && /usr/lib/apt/apt-helper download-file "$mirror$embree_source" "$portable/$embree_source" \
-            "SHA256:$embree_sha256" >"$portable/embree_fetch.log" 2>&1; then return; fi
-    done
-    tail -n 5 "$portable/embree_fetch.log" >&2
-    fail "could not fetch $embree_source from Debian; put it into $portable by hand"
+    local folder
+    folder=$(apt-get download --print-uris libembree-dev 2>/dev/null | sed -n "s/^'\(.*\/\)[^/]*' .*/\1/p")
+    [ -n "$folder" ] || fail "apt-get does not say where libembree-dev comes from: run 'apt-get update'"
+    /usr/lib/apt/apt-helper download-file "$folder$embree_source" "$portable/$embree_source" \
+        "SHA256:$embree_sha256" >"$portable/embree_fetch.log" 2>&1 ||
+        { tail -n 5 "$portable/embree_fetch.log" >&2; fail "could not fetch $embree_source; put it into $portable by hand"; }
 }
 
 unpack_embree() {

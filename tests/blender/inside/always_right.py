@@ -3,6 +3,7 @@
 import bpy
 import numpy as np
 import skinglow_blender as sb
+from skinglow_blender import handlers
 
 from inside.scenes import assert_fresh, assert_shows, depsgraph, fresh_table, lamp, link, paper_table, patch
 
@@ -232,6 +233,7 @@ def check_save_and_load(work):
     path = str(work / "saved.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.read_factory_settings(use_empty=True)
+    handlers.unregister()
     bpy.ops.wm.open_mainfile(filepath=path)
     obj = bpy.data.objects["Patch"]
     # Before anything is computed: what was saved, as a Blender without the add-on has it.
@@ -243,6 +245,9 @@ def check_save_and_load(work):
     shown.pixels.foreach_get(pixels)
     saved = pixels.reshape(shown.size[1], -1, 4)[obj.skinglow.row, :256, :3]
     np.testing.assert_array_equal(saved, expected)
+    handlers.register()
+    bpy.ops.wm.open_mainfile(filepath=path)
+    obj = bpy.data.objects["Patch"]
     assert_fresh(obj)
     key = bpy.data.objects["Key"]
     key.data.color = (1.0, 0.0, 0.5)

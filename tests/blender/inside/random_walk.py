@@ -265,7 +265,7 @@ def check_random_walk(work):
         for _ in range(steps):
             done.append(walk.step())
             graph = depsgraph()
-            # Lamps that Blender itself moves after its report (handlers.py): a window looks again, here the script does.
+            # Lamps that Blender moves after its report (handlers.py): a window looks again, here the script does.
             again = sb.update(graph)
             late += bool(again)
             assert all(" in " in rebuilt.why for rebuilt in again), [rebuilt.why for rebuilt in again]

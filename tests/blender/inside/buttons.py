@@ -1,0 +1,110 @@
+"""The operators as scripts and buttons call them, and the panel's drawing, without a window."""
+
+import bpy
+import numpy as np
+import skinglow_blender as sb
+from skinglow_blender import live_update
+
+from inside.scenes import assert_fresh, camera_above, depsgraph, lamp, patch
+
+sb.register()
+
+
+def ball():
+    bpy.ops.mesh.primitive_uv_sphere_add(radius=0.5)
+    return bpy.context.object
+
+
+def check_make_update_reset_remove(_work):
+    key = lamp("Key")
+    obj = ball()
+    obj.skinglow.unit_mm = 10.0
+    assert bpy.ops.skinglow.make() == {"FINISHED"}
+    assert obj.skinglow.enabled
+    assert_fresh(obj)
+    obj.skinglow.live = False
+    key.data.color = (0.0, 0.0, 1.0)
+    before = sb.lut(obj, depsgraph())
+    assert bpy.ops.skinglow.update() == {"FINISHED"}
+    assert not np.array_equal(sb.lut(obj, depsgraph()), before)
+    obj.skinglow.strength = 3.0
+    assert bpy.ops.skinglow.reset() == {"FINISHED"}
+    assert obj.skinglow.strength == 1.0 and obj.skinglow.live and obj.skinglow.enabled
+    assert_fresh(obj)
+    obj.data.attributes["skinglow_thickness"].data[0].value = 99.0
+    obj.skinglow.unit_mm = 10.0
+    assert bpy.ops.skinglow.bake() == {"FINISHED"}
+    assert obj.data.attributes["skinglow_thickness"].data[0].value < 11.0
+    assert bpy.ops.skinglow.remove() == {"FINISHED"}
+    assert not obj.skinglow.enabled and not bpy.data.node_groups
+
+
+def check_undo_of_each(_work):
+    lamp("Key")
+    name = ball().name
+    bpy.ops.ed.undo_push(message="ball")
+    bpy.ops.skinglow.make("EXEC_DEFAULT", True)
+    assert_fresh(bpy.data.objects[name])
+    bpy.ops.ed.undo()
+    assert not bpy.data.objects[name].skinglow.enabled
+    bpy.ops.ed.redo()
+    assert_fresh(bpy.data.objects[name])
+
+
+def check_errors_in_words(_work):
+    obj = patch("Flat")
+    obj.scale.x = 0.0
+    depsgraph()
+    obj.select_set(True)
+    bpy.context.view_layer.objects.active = obj
+    try:
+        bpy.ops.skinglow.make()
+    except RuntimeError as error:
+        assert "'Flat' has scale 0" in str(error)
+    else:
+        raise AssertionError("nothing was said")
+
+
+def check_export(work):
+    lamp("Key")
+    ball()
+    bpy.ops.skinglow.make()
+    camera_above()
+    assert bpy.ops.skinglow.export_povray(directory=str(work / "pov")) == {"FINISHED"}
+    assert (work / "pov" / "scene.pov").exists()
+
+
+def check_ten_thousand_updates_leave_nothing(_work):
+    """No datablock, no growth of what is remembered."""
+    key = lamp("Key")
+    obj = patch()
+    sb.make_skin(obj, thickness=[1.0] * 4)
+    names = ("images", "node_groups", "materials", "meshes", "objects", "lights", "textures", "actions")
+    before = {name: len(getattr(bpy.data, name)) for name in names}
+    graph = depsgraph()
+    for i in range(10000):
+        key.data.color = ((i % 101) / 101, (i % 7) / 7, 0.5)
+        bpy.context.view_layer.update()
+    assert_fresh(obj)
+    assert {name: len(getattr(bpy.data, name)) for name in names} == before
+    assert len(live_update.STATE.atlases) == 1 and len(live_update.STATE.owners) == 1
+    assert sb.update(graph) == []
+
+
+def check_nothing_is_tagged_when_lamps_stay(_work):
+    """Editing something else computes nothing, writes nothing and so calls nothing again."""
+    lamp("Key")
+    obj, other = patch(), patch("Other")
+    sb.make_skin(obj, thickness=[1.0] * 4)
+    depsgraph()
+    reports = []
+    bpy.app.handlers.depsgraph_update_post.append(
+        lambda _scene, graph: reports.append([u.id.name for u in graph.updates])
+    )
+    try:
+        other.location.x = 5.0
+        depsgraph()
+        depsgraph()
+    finally:
+        bpy.app.handlers.depsgraph_update_post.pop()
+    assert len(reports) == 1 and "Other" in reports[0], reports
