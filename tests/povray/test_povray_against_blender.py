@@ -81,7 +81,7 @@ def rms(difference: np.ndarray) -> float:
 def test_middles_of_pixels(tmp_path, host, camera, resolution):
     """One sample in the middle of each pixel, so that silhouettes too can be compared."""
     if host not in hosts():
-        pytest.skip(f"Blender {host} is not named in the environment (scripts/test does)")
+        pytest.fail(f"Blender {host} is not named in the environment (scripts/test does)")
     found, expected = both(tmp_path, hosts()[host], camera=camera, resolution=resolution, samples=1)[::-1]
     inside = away_from_edges(expected)
     assert inside.mean() > 0.15
@@ -101,7 +101,7 @@ def test_middles_of_pixels(tmp_path, host, camera, resolution):
 def test_antialiased(tmp_path, host):
     """As the scene is emitted: nine samples a pixel in POV-Ray, 64 in a box filter in Cycles."""
     if host not in hosts():
-        pytest.skip(f"Blender {host} is not named in the environment (scripts/test does)")
+        pytest.fail(f"Blender {host} is not named in the environment (scripts/test does)")
     expected, found = both(tmp_path, hosts()[host], camera="PERSP", resolution=[320, 240], samples=64)
     difference = rms((found - expected)[away_from_edges(expected)])
     print(f"Blender {host}, antialiased: RMS {difference:.2e}")

@@ -1,6 +1,5 @@
 """skinglow.thickness: closed forms, refusals, progress. Real heads: test_thickness_heads.py."""
 
-import importlib.util
 import os
 import subprocess
 import sys
@@ -10,10 +9,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from skinglow._thickness import thickness
-
-if importlib.util.find_spec("skinglow._rays") is None:
-    print("test_thickness: skinglow was built without Embree (SKINGLOW_RAYS=OFF)")
-    pytest.skip("skinglow was built without Embree", allow_module_level=True)
 
 
 def sphere(radius, levels=4):

@@ -1,6 +1,5 @@
 """skinglow.thickness on real heads, where they are at hand (../shared from the project's root)."""
 
-import importlib.util
 import json
 import struct
 from pathlib import Path
@@ -10,10 +9,6 @@ import pytest
 from skinglow._thickness import thickness
 
 HEADS = Path(__file__).resolve().parents[3] / "shared" / "data" / "heads"
-
-if importlib.util.find_spec("skinglow._rays") is None:
-    print("test_thickness_heads: skinglow was built without Embree (SKINGLOW_RAYS=OFF)")
-    pytest.skip("skinglow was built without Embree", allow_module_level=True)
 
 
 def at_hand(name):
