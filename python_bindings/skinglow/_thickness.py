@@ -24,7 +24,7 @@ def _rays() -> ModuleType:
     RTLD_DEEPBIND makes the module look in its own libraries first.
     """
     deep = getattr(os, "RTLD_DEEPBIND", 0)
-    if not deep or _is_sanitized():
+    if not deep or _is_sanitized() or _same_embree_is_loaded():
         return importlib.import_module("skinglow._rays")
     flags = sys.getdlopenflags()
     sys.setdlopenflags(os.RTLD_NOW | os.RTLD_LOCAL | deep)
@@ -32,6 +32,15 @@ def _rays() -> ModuleType:
         return importlib.import_module("skinglow._rays")
     finally:
         sys.setdlopenflags(flags)
+
+
+def _same_embree_is_loaded() -> bool:
+    """Debian's Blender brings the very library that this module uses, and crashes at its end if it is bound deeply."""
+    try:
+        with open("/proc/self/maps") as maps:
+            return "libembree3" in maps.read()
+    except OSError:
+        return False
 
 
 def _is_sanitized() -> bool:
