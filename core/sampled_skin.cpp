@@ -163,7 +163,9 @@ ThicknessRows SampledSkin::log_transmittance_at_entries(const ThicknessRows& cor
         double last = 0.0;
         for (std::size_t i = 0; i < row.size(); ++i) {
             // Light never grows with thickness, whatever the correction's curve does between its nodes.
-            last = row[i] = std::min(last, row[i] + curves_[k].log_transmittance(entries[i]));
+            // In this order a NaN is handed on, and BaseLut refuses it; the other way round it would be
+            // hidden.
+            last = row[i] = std::min(row[i] + curves_[k].log_transmittance(entries[i]), last);
         }
     }
     return result;
