@@ -18,13 +18,16 @@ double largest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-std::array<glm::dvec3, 9> corners_and_middle(const Box& box) {
-    std::array<glm::dvec3, 9> places{};
+/// The box's corners, its middle, and where it comes nearest to the lamp's axis: there a spread peaks.
+std::array<glm::dvec3, 10> telling_places(const Box& box, const PreparedLight& light) {
+    std::array<glm::dvec3, 10> places{};
     for (std::size_t i = 0; i < 8; ++i) {
         places[i] = {(i & 1U) != 0 ? box.most.x : box.least.x, (i & 2U) != 0 ? box.most.y : box.least.y,
                      (i & 4U) != 0 ? box.most.z : box.least.z};
     }
     places[8] = box.middle();
+    const double along = glm::dot(box.middle() - light.position(), light.direction());
+    places[9] = glm::clamp(light.position() + along * light.direction(), box.least, box.most);
     return places;
 }
 
@@ -62,7 +65,7 @@ void cut(Lamp& lamp, std::size_t tiling, const Box& box) {
     lamp.terms = surface_terms(lamp.light, lamp.strength, box.middle(), columns, rows);
     lamp.error = 0;
     if (lamp.light.kind() != LightKind::area) return;
-    for (const glm::dvec3& place : corners_and_middle(box)) {
+    for (const glm::dvec3& place : telling_places(box, lamp.light)) {
         const glm::dvec3 facing = lamp.light.to_light(place);
         glm::dvec3 sum = -lamp.light.irradiance(place, facing, 1e-3) * lamp.strength;
         for (const SurfaceTerm& term : lamp.terms) sum += term.irradiance(place, facing, lambert_cubic);

@@ -7,7 +7,6 @@
 #include "argument_check.h"
 #include "light_bounds.h"
 #include "numpy_conversion.h"
-#include "skin_angular_weight.h"
 #include "surface_lighting.h"
 
 namespace py = pybind11;
@@ -104,10 +103,6 @@ profile = t (1 + smooth (t(3 - 2t) - 1)) (1 + cosine (c - 1)),  E = strength w(m
         .def("irradiance", &irradiance_at, "points"_a, "normals"_a,
              "What the material shows: W/m^2, (n, 3), at points (n, 3) that face along normals (n, 3) of any "
              "length.");
-    m.def("skin_angular_weight", &skin_angular_weight, "tissue"_a, "thickness_mm"_a = 4.0, "streams"_a = 16,
-          R"(How the light on a skin's far side enters by its angle, solved: an AngularWeight.
-
-It hardly depends on the thickness (mm, above 0); one typical of the object will do. streams as for slab.)");
     m.def(
         "normal_cone",
         [](py::handle normals) {

@@ -316,6 +316,7 @@ def far_side_irradiance(
     tolerance: float = 1e-7,
     threads: int = 0,
 ) -> _Array: ...
+
 class SurfaceLighting:
     def __init__(
         self,
