@@ -87,12 +87,12 @@ def _update_group(
     atlas = _atlas(group, mode)
     rebuilt = []
     for obj, skin in members:
-        signature = signature_of(skin, reading.lamps)
+        signature = signature_of(skin, reading.lamps, reading.world)
         row = obj.skinglow.row
         before = atlas.signatures.get(skin.key)
         try:
             if signature != before or atlas.rows.get(skin.key) != row:
-                table = compute_table(skin, reading.lamps)
+                table = compute_table(skin, reading.lamps, reading.world)
                 atlas.put(row, table.colors)
                 atlas.signatures[skin.key] = signature
                 atlas.rows[skin.key] = row
@@ -165,7 +165,7 @@ def why_changed(before: tuple | None, after: tuple) -> str:
         return f"mode {before[0].lower()} to {after[0].lower()}"
     if len(after) < 3 or before[1] != after[1]:
         return "base lookup"
-    names = ("blood weight", "attenuation", "reference point") if after[0] == "PAPER" else ("reference point",)
+    names = ("blood weight", "attenuation", "reference point") if after[0] == "PAPER" else ("reference point", "world")
     reasons = [name for name, a, b in zip(names, before[2:], after[2:], strict=False) if a != b]
     old, new = ({light[0]: light for light in signature[-1]} for signature in (before, after))
     reasons += [f"light '{name}' came" for name in new if name not in old]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From settings and lamps to the table that a skin shows. All computing is the core's."""
+"""From settings, lamps and world to the table that a skin shows. All computing is the core's."""
 
 import math
 from functools import lru_cache
@@ -11,6 +11,7 @@ from .base_image import base_of_image, brightness
 from .errors import SkinError, core
 from .scene_lights import Lamp, make_light
 from .scene_reading import Skin
+from .scene_world import World
 from .skin_settings import TISSUE_SLIDERS
 
 
@@ -22,14 +23,14 @@ class Table(NamedTuple):
     weight: tuple[float, float, float] | None  #: what the base was multiplied by; None in mode `existing`
 
 
-def signature_of(skin: Skin, lamps: list[Lamp]) -> tuple:
+def signature_of(skin: Skin, lamps: list[Lamp], world: World | None) -> tuple:
     """All that a skin's table depends on: it is computed again only when this changes."""
     if skin.mode == "EXISTING":
         return (skin.mode, skin.base)
     lights = tuple(lamp.signature for lamp in lamps_of(skin, lamps))
     if skin.mode == "PAPER":
         return (skin.mode, skin.base, skin.blood_weight, skin.attenuation, skin.point, lights)
-    return (skin.mode, skin.base, skin.point, lights)
+    return (skin.mode, skin.base, skin.point, world_irradiance(world), lights)
 
 
 def lamps_of(skin: Skin, lamps: list[Lamp]) -> list[Lamp]:
@@ -37,7 +38,12 @@ def lamps_of(skin: Skin, lamps: list[Lamp]) -> list[Lamp]:
     return [lamp for lamp in lamps if not lamp.left_out and lamp.lights(skin.name)]
 
 
-def compute_table(skin: Skin, lamps: list[Lamp]) -> Table:
+def world_irradiance(world: World | None) -> tuple[float, float, float]:
+    """What the world brings to a skin of mode physical, W/m^2; zeros without one."""
+    return world.irradiance if world is not None else (0.0, 0.0, 0.0)
+
+
+def compute_table(skin: Skin, lamps: list[Lamp], world: World | None) -> Table:
     """Computes a skin's lookup. Raises SkinError or ValueError, in words, where it cannot."""
     sg = core()
     base = base_lut(skin.base)
@@ -48,7 +54,7 @@ def compute_table(skin: Skin, lamps: list[Lamp]) -> Table:
         weight = np.add(skin.blood_weight, sg.light_weight(lights, skin.point, skin.attenuation))
     else:
         # Light that leaves diffusely: the radiance is the flux per area over pi.
-        weight = sg.irradiance(lights, skin.point) / math.pi
+        weight = np.add(sg.irradiance(lights, skin.point), world_irradiance(world)) / math.pi
     colors = sg.recolour(base, weight)
     if np.abs(colors).max() > np.finfo(np.float32).max:
         raise SkinError(f"{skin.name}: the lookup is brighter than an image can hold; turn the lights down")
