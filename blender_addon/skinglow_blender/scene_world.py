@@ -67,7 +67,7 @@ def read_world(depsgraph: bpy.types.Depsgraph) -> World | None:
     left_out = ""
     if not layer.use_sky:
         left_out = "the view layer leaves it out (Filter, Environment)"
-    elif not _visible_to_diffuse(world):
+    elif not _visible_to_diffuse(world, depsgraph.mode):
         left_out = "its ray visibility leaves diffuse light out"
     tree = blender_version.shader_tree(world)
     if tree is None:
@@ -76,9 +76,10 @@ def read_world(depsgraph: bpy.types.Depsgraph) -> World | None:
     return World(world.name, followed.backgrounds, left_out, followed.note)
 
 
-def _visible_to_diffuse(world: bpy.types.World) -> bool:
-    # A property of the Cycles add-on, which may be off.
-    visibility = getattr(world, "cycles_visibility", None)
+def _visible_to_diffuse(world: bpy.types.World, mode: str) -> bool:
+    # A property of the Cycles add-on, which may be off. Blender 3.4 does not bring it up to date in the viewport's
+    # evaluated copy.
+    visibility = getattr(world.original if mode == "VIEWPORT" else world, "cycles_visibility", None)
     return visibility is None or visibility.diffuse
 
 
