@@ -7,6 +7,7 @@
 #include <string>
 
 #include "argument_check.h"
+#include "spherical_harmonics.h"
 
 namespace skinglow {
 namespace {
@@ -138,7 +139,7 @@ SurfaceLighting::SurfaceLighting(std::span<const Light> lights, const Box& box,
         far_lights_.push_back(lamp.index);
         const glm::dvec3 facing =
             lamp.light.facing_irradiance(box.middle(), default_area_tolerance) * lamp.strength;
-        const std::array<double, 9> basis = Environment::harmonics(lamp.light.to_light(box.middle()));
+        const std::array<double, 9> basis = spherical_harmonics(lamp.light.to_light(box.middle()));
         for (std::size_t i = 0; i < 9; ++i) harmonics[i] += facing * basis[i];
     }
     std::sort(far_lights_.begin(), far_lights_.end());
@@ -146,10 +147,9 @@ SurfaceLighting::SurfaceLighting(std::span<const Light> lights, const Box& box,
 }
 
 glm::dvec3 SurfaceLighting::irradiance(const glm::dvec3& point, const glm::dvec3& normal) const {
-    const auto& [x, y, z] = std::array{normal.x, normal.y, normal.z};
-    const std::array<double, 9> monomials = {1.0, y, z, x, x * y, y * z, 3 * z * z - 1, x * z, x * x - y * y};
+    const std::array<double, 9> at = harmonic_monomials(normal);
     glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i < 9; ++i) sum += polynomial_[i] * monomials[i];
+    for (std::size_t i = 0; i < 9; ++i) sum += polynomial_[i] * at[i];
     sum = glm::max(sum, glm::dvec3(0.0));
     for (const SurfaceTerm& term : terms_) sum += term.irradiance(point, normal, angular_);
     return sum;

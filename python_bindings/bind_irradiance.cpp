@@ -75,37 +75,7 @@ py::array angular_weight_at(const AngularWeight& self, py::handle mu) {
     return numpy::from_vec3s(std::move(weights));
 }
 
-Environment make_environment(py::handle radiance) {
-    const numpy::Array values = numpy::to_array(radiance, "radiance");
-    if (values.ndim() == 1) return Environment(numpy::to_vec3(radiance, "radiance"));
-    if (values.ndim() == 2 && values.shape(0) == 9 && values.shape(1) == 3) {
-        std::array<glm::dvec3, 9> coefficients;
-        const Vec3s rows = view_of_vec3s(values, "radiance");
-        std::copy(rows.begin(), rows.end(), coefficients.begin());
-        return Environment(coefficients);
-    }
-    if (values.ndim() != 3 || values.shape(2) != 3) {
-        refuse_argument("radiance", "of shape " + numpy::shape_text(values),
-                        "shape (3,), (9, 3) or (height, width, 3)");
-    }
-    const auto height = static_cast<std::size_t>(values.shape(0));
-    const auto width = static_cast<std::size_t>(values.shape(1));
-    return Environment::from_equirectangular(
-        {reinterpret_cast<const glm::dvec3*>(values.data()), height * width}, width, height);
-}
-
-py::array environment_irradiance(const Environment& self, py::handle normals,
-                                 const AngularWeight* angular_weight) {
-    const numpy::Array array = numpy::to_array(normals, "normals");
-    std::vector<glm::dvec3> result;
-    for (const glm::dvec3& n : view_of_vec3s(array, "normals")) {
-        require_finite("normals", n);
-        result.push_back(n == glm::dvec3(0.0) ? n : self.irradiance(unit(n), angular_weight));
-    }
-    return numpy::from_vec3s(std::move(result));
-}
-
-void bind_angles_and_environment(py::module_& m) {
+void bind_angular_weight(py::module_& m) {
     py::class_<AngularWeight>(m, "AngularWeight",
                               R"(How much more light from one angle comes through than light from everywhere.
 
@@ -115,27 +85,6 @@ transmittance  (n,) or (n, 3) for R, G, B, 0 or more, as slab(...) gives it; a c
 Raises ValueError naming the entry.)")
         .def(py::init(&make_angular_weight), "mu"_a, "transmittance"_a)
         .def("at", &angular_weight_at, "mu"_a, "w at cosines (n,) or one, clamped to 0 to 1; shape (n, 3).");
-    py::class_<Environment>(
-        m, "Environment",
-        R"(The world's light as nine spherical-harmonic coefficients (Ramamoorthi and Hanrahan 2001).
-
-radiance  (3,) constant, W/(m^2 sr), 0 or more; or (9, 3) coefficients, orthonormal, order l, m; or an equirectangular
-          image (height, width, 3), row 0 looking up to +z, columns as in Blender (the middle looks along +x, a quarter
-          from the left along +y). Blender's own pixels start at the bottom: turn them over.)")
-        .def(py::init(&make_environment), "radiance"_a)
-        .def("irradiance", &environment_irradiance, "normals"_a, "angular_weight"_a = py::none(),
-             "W/m^2 on surfaces along normals (n, 3), any length (0 receives nothing); not below 0. Shape "
-             "(n, 3).")
-        .def_property_readonly(
-            "mean_irradiance",
-            [](const Environment& self) { return numpy::from_vec3(self.mean_irradiance()); },
-            "pi times the mean radiance, (3,): the part of the environment in the weight of a whole object.")
-        .def_property_readonly(
-            "coefficients",
-            [](const Environment& self) {
-                return numpy::from_vec3s({self.coefficients().begin(), self.coefficients().end()});
-            },
-            "(9, 3), of the radiance.");
 }
 
 SurfaceOptions surface_options(double tolerance, const AngularWeight* angular_weight,
@@ -213,10 +162,12 @@ void bind_units(py::module_& m) {
 
 }  // namespace
 
+void bind_environment(py::module_& m);
 void bind_light_choice(py::module_& m);
 
 void bind_irradiance(py::module_& m) {
-    bind_angles_and_environment(m);
+    bind_angular_weight(m);
+    bind_environment(m);
     bind_object_weights(m);
     bind_surface_weights(m);
     bind_units(m);

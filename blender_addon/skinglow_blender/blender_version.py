@@ -27,10 +27,15 @@ def new_group_socket(group: bpy.types.NodeTree, name: str, kind: str, in_out: st
 
 
 def shader_tree(owner: bpy.types.ID) -> bpy.types.NodeTree | None:
-    """The node tree that a material or light really uses, or None."""
+    """The node tree that a material, light or world really uses, or None."""
     if VERSION < (5, 0, 0) and not owner.use_nodes:
         return None
     return owner.node_tree
+
+
+def world_override(layer: bpy.types.ViewLayer) -> bpy.types.World | None:
+    """The world that a view layer has instead of the scene's (4.4)."""
+    return getattr(layer, "world_override", None)
 
 
 def ensure_shader_tree(material: bpy.types.Material) -> bpy.types.NodeTree:

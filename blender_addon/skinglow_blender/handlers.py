@@ -8,12 +8,13 @@ from typing import Any
 import bpy
 from bpy.app.handlers import persistent
 
+from . import world_image
 from .errors import SkinError
 from .live_update import STATE, update_scene
 from .lut_image import images_of, skin_groups
 
-#: Changes of these alone cannot change a lamp or a skin's place.
-HARMLESS = frozenset(("Material", "Image", "Texture", "Brush", "Text", "Action", "World", "Screen", "WindowManager"))
+#: Changes of these alone cannot change a lamp, the world or a skin's place.
+HARMLESS = frozenset(("Material", "Image", "Texture", "Brush", "Text", "Action", "Screen", "WindowManager"))
 
 
 def guarded(function: Callable[..., None]) -> Callable[..., None]:
@@ -35,10 +36,22 @@ def guarded(function: Callable[..., None]) -> Callable[..., None]:
 @guarded
 def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Something was edited."""
-    if not any(type(update.id).__name__ not in HARMLESS for update in depsgraph.updates):
+    images_changed = _forget_changed_images(depsgraph)
+    kinds = [type(update.id).__name__ for update in depsgraph.updates]
+    # Blender 3.4 reports changes of an image without saying of what.
+    if kinds and HARMLESS.issuperset(kinds) and not images_changed:
         return
     if update_scene(depsgraph, only_live=True):
         look_again_soon()
+
+
+def _forget_changed_images(depsgraph: bpy.types.Depsgraph) -> bool:
+    """Has changed images of a world read again; whether there were any."""
+    changed = {u.id.original.name_full for u in depsgraph.updates if isinstance(u.id, bpy.types.Image)}
+    known = [name for name in changed if world_image.is_known(name)]
+    for name in known:
+        world_image.forget(name)
+    return bool(known)
 
 
 @guarded
@@ -120,6 +133,7 @@ def forget_all() -> None:
     STATE.rendering = False
     STATE.render_frame = None
     STATE.forget()
+    world_image.forget()
 
 
 @guarded

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What each lamp of a scene does for a skin, and why it does nothing."""
+"""What each lamp of a scene and its world do for a skin, and why they do nothing."""
 
 from typing import Any
 
@@ -9,16 +9,18 @@ import numpy as np
 from .errors import core
 from .scene_lights import Lamp, make_light
 from .scene_reading import Skin, read_scene, read_skin
+from .scene_world import World
 from .skin import skin_settings_of
 
 
 def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[dict[str, Any]]:
-    """A dict for each lamp of the depsgraph, and for each lamp of the scene that the depsgraph leaves out.
+    """A dict for each lamp of the depsgraph, for the world, and for each lamp of the scene that is hidden from it.
 
-    name      of the lamp's object; " in <name>" where something instances it
-    kind      'POINT', 'SUN', 'SPOT' or 'AREA'
+    name      of the lamp's object; " in <name>" where something instances it; of the world
+    kind      'POINT', 'SUN', 'SPOT', 'AREA' or 'WORLD'
     weight    (3,) float64: colour times attenuation in modes existing and paper; irradiance, W/m^2, in mode physical
-    distance  from the skin's reference point, scene units; 0 for a sun, None for a lamp that is not in the depsgraph
+    distance  from the skin's reference point, scene units; 0 for a sun and the world, None for a lamp that is not in
+              the depsgraph
     share     of the sum of all weights, 0 to 1
     reason    why its weight is zero, in words, or ""
     note      what of it could not be taken over, or ""
@@ -26,8 +28,11 @@ def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[
     skin_settings_of(obj)
     evaluated = obj.evaluated_get(depsgraph)
     skin = read_skin(evaluated, evaluated.matrix_world)
-    lamps = read_scene(depsgraph).lamps
+    reading = read_scene(depsgraph)
+    lamps = reading.lamps
     rows = [_row(skin, lamp) for lamp in lamps]
+    if reading.world is not None:
+        rows.append(_world_row(skin, reading.world))
     total = sum(float(np.sum(row["weight"])) for row in rows)
     for row in rows:
         row["share"] = float(np.sum(row["weight"])) / total if total > 0.0 else 0.0
@@ -74,6 +79,25 @@ def _row(skin: Skin, lamp: Lamp) -> dict[str, Any]:
         "share": 0.0,
         "reason": reason,
         "note": lamp.note,
+    }
+
+
+def _world_row(skin: Skin, world: World) -> dict[str, Any]:
+    weight, reason, note = np.zeros(3), world.left_out, world.unfollowed
+    if skin.mode != "PHYSICAL":
+        reason = "the paper's formula knows no world"
+    elif not reason:
+        weight, note = np.array(world.irradiance), world.note
+        if not weight.any():
+            reason = note or "its colour or strength is 0"
+    return {
+        "name": world.name,
+        "kind": "WORLD",
+        "weight": weight,
+        "distance": 0.0,
+        "share": 0.0,
+        "reason": reason,
+        "note": note,
     }
 
 

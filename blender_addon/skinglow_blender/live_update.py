@@ -119,11 +119,11 @@ def _compute(
     """Computes the tables whose signature changed; a skin with a fault keeps its last one."""
     room = atlas.layout if STATE.rendering else None
     for _obj, skin in members:
-        signature = signature_of(skin, reading.lamps)
+        signature = signature_of(skin, reading.lamps, reading.world)
         if atlas.signatures.get(skin.key) == signature:
             continue
         try:
-            atlas.tables[skin.key] = compute_table(skin, reading.lamps, room)
+            atlas.tables[skin.key] = compute_table(skin, reading.lamps, reading.world, room)
             atlas.signatures[skin.key] = signature
         except (SkinError, ValueError) as error:
             faults[skin.key] = str(error)
@@ -220,6 +220,7 @@ REASONS = {
     "point": "reference point",
     "weights": "weights",
     "surface": "its place or shape",
+    "world": "world",
 }
 
 

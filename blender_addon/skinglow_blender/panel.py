@@ -88,7 +88,7 @@ def _draw_lamps(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.
         box.label(text="No lamps in this scene", icon="LIGHT")
     for row in rows:
         line = box.row()
-        line.label(text=row["name"], icon=f"LIGHT_{row['kind']}")
+        line.label(text=row["name"], icon="WORLD" if row["kind"] == "WORLD" else f"LIGHT_{row['kind']}")
         if row["reason"]:
             line.label(text=row["reason"])
         else:

@@ -77,7 +77,7 @@ def _export_skin(
     if "surface_image" not in arguments:
         arguments.pop("surface_uv", None)
     if not compute_lut:
-        written.append(_write_lut(compute_table(skin, reading.lamps).colors, folder / LUT_FILE))
+        written.append(_write_lut(compute_table(skin, reading.lamps, reading.world).colors, folder / LUT_FILE))
         arguments["image"] = LUT_FILE
     files = core().povray_scene(
         mode=skin.mode.lower(),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One walk through an evaluated scene: which lamps shine in it, and which skins it shows where."""
+"""One walk through an evaluated scene: which lamps and world shine in it, and which skins it shows where."""
 
 from math import pi
 from typing import NamedTuple
@@ -8,6 +8,7 @@ import bpy
 from mathutils import Matrix, Vector
 
 from .scene_lights import Lamp, read_lamp
+from .scene_world import World, read_world
 from .skin_settings import TISSUE_SLIDERS, as_typed
 
 MM_PER_METRE = 1000.0
@@ -47,10 +48,11 @@ class SurfaceBounds(NamedTuple):
 
 
 class SceneReading(NamedTuple):
-    """The lamps and skins of one depsgraph, in its order."""
+    """The lamps, skins and world of one depsgraph, in its order."""
 
     lamps: list[Lamp]
     skins: list[tuple[bpy.types.Object, Skin]]  #: with the original object, valid until undo or load
+    world: World | None
 
 
 def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
@@ -84,7 +86,7 @@ def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
         for instance in depsgraph.object_instances:
             if instance.is_instance:
                 take(instance.object, instance.matrix_world, instance.parent)
-    return SceneReading(lamps, skins)
+    return SceneReading(lamps, skins, read_world(depsgraph))
 
 
 def read_skin(obj: bpy.types.Object, matrix: Matrix) -> Skin:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import bpy
 import numpy as np
 
-from . import thickness_attribute
+from . import thickness_attribute, world_image
 from .errors import SkinError
 from .live_update import STATE, Rebuilt, update_scene
 from .lut_image import group_layout, image_pair, read_row, remove_images, shown_image
@@ -106,11 +106,12 @@ def choice_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> WeightsC
 
 
 def update(depsgraph: bpy.types.Depsgraph) -> list[Rebuilt]:
-    """Recomputes every skin's lookup whose lamps, place or settings changed; returns what was rebuilt and why.
+    """Recomputes every skin's lookup whose lamps, world, place or settings changed; returns what was rebuilt and why.
 
     The handlers do the same by themselves wherever Blender reports a change. Raises SkinError with all that went
     wrong, after the other skins are up to date; a skin with a fault keeps its last good lookup.
     """
+    world_image.forget_edited()
     rebuilt = update_scene(depsgraph)
     if STATE.faults:
         raise SkinError("; ".join(STATE.faults.values()))

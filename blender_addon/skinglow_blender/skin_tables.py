@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From settings and lamps to the table that a skin shows. All computing is the core's."""
+"""From settings, lamps and world to the table that a skin shows. All computing is the core's."""
 
 import math
 from functools import lru_cache
@@ -12,6 +12,7 @@ from .errors import SkinError, core
 from .lut_layout import MAX_TERMS, Layout, layout_of
 from .scene_lights import Lamp, make_light
 from .scene_reading import Skin
+from .scene_world import World
 from .skin_settings import TISSUE_SLIDERS
 
 #: With weights 'AUTO' the object's one weight will do where it is off by no more than this share of itself.
@@ -49,17 +50,29 @@ class Signature(NamedTuple):
     point: tuple | None = None
     weights: str | None = None
     surface: tuple | None = None
+    world: tuple | None = None
     lights: tuple = ()
 
 
-def signature_of(skin: Skin, lamps: list[Lamp]) -> Signature:
+def signature_of(skin: Skin, lamps: list[Lamp], world: World | None) -> Signature:
     """What decides a skin's table in its mode, and nothing else."""
     if skin.mode == "EXISTING":
         return Signature(skin.mode, skin.base)
     lights = tuple(lamp.signature for lamp in lamps_of(skin, lamps))
     if skin.mode == "PAPER":
         return Signature(skin.mode, skin.base, skin.blood_weight, skin.attenuation, skin.point, lights=lights)
-    return Signature(skin.mode, skin.base, point=skin.point, weights=skin.weights, surface=skin.surface, lights=lights)
+    light = world_irradiance(world)
+    if skin.surface is not None and world is not None:
+        light = tuple(world.environment.coefficients.ravel())
+    return Signature(
+        skin.mode,
+        skin.base,
+        point=skin.point,
+        weights=skin.weights,
+        surface=skin.surface,
+        world=light,
+        lights=lights,
+    )
 
 
 def lamps_of(skin: Skin, lamps: list[Lamp]) -> list[Lamp]:
@@ -67,7 +80,12 @@ def lamps_of(skin: Skin, lamps: list[Lamp]) -> list[Lamp]:
     return [lamp for lamp in lamps if not lamp.left_out and lamp.lights(skin.name)]
 
 
-def compute_table(skin: Skin, lamps: list[Lamp], room: Layout | None = None) -> Table:
+def world_irradiance(world: World | None) -> tuple[float, float, float]:
+    """What the world brings to a skin of mode physical, W/m^2; zeros without one."""
+    return world.irradiance if world is not None else (0.0, 0.0, 0.0)
+
+
+def compute_table(skin: Skin, lamps: list[Lamp], world: World | None, room: Layout | None = None) -> Table:
     """Computes a skin's lookup. Raises SkinError or ValueError, in words, where it cannot.
 
     room  what its light on the surface has to fit into; None: as much as it needs
@@ -82,10 +100,10 @@ def compute_table(skin: Skin, lamps: list[Lamp], room: Layout | None = None) -> 
     if skin.mode == "PAPER":
         weight = np.add(skin.blood_weight, sg.light_weight(lights, skin.point, skin.attenuation))
     else:
-        irradiance = sg.irradiance(lights, skin.point)
-        choice = _choose_weights(skin, lights, irradiance)
+        irradiance = np.add(sg.irradiance(lights, skin.point), world_irradiance(world))
+        choice = _choose_weights(skin, lights, world, irradiance)
         if choice.weights == "SURFACE":
-            lighting = _lighting(skin, lights, room)
+            lighting = _lighting(skin, lights, world, room)
         # Light that leaves diffusely: the radiance is the flux per area over pi.
         weight = irradiance / math.pi
     colors = sg.recolour(base, weight)
@@ -94,22 +112,25 @@ def compute_table(skin: Skin, lamps: list[Lamp], room: Layout | None = None) -> 
     return Table(colors, base.texel_mapping, tuple(float(w) for w in weight), base.matrices, choice, lighting)
 
 
-def _choose_weights(skin: Skin, lights: list, irradiance: np.ndarray) -> WeightsChoice:
+def _choose_weights(skin: Skin, lights: list, world: World | None, irradiance: np.ndarray) -> WeightsChoice:
     if skin.surface is None:
         return OBJECT_WEIGHT
     surface = skin.surface
     off = core().object_irradiance_error(lights, skin.point, surface.least, surface.most, surface.facing)
+    if world is not None:
+        off = np.add(off, world.environment.mean_irradiance_error)
     largest = float(np.abs(irradiance).max())
     bound = float(off.max()) / largest if largest > 0.0 else 0.0
     return WeightsChoice("SURFACE" if skin.weights == "SURFACE" or bound > AUTO_TOLERANCE else "OBJECT", bound)
 
 
-def _lighting(skin: Skin, lights: list, room: Layout | None) -> Any:  # noqa: ANN401
+def _lighting(skin: Skin, lights: list, world: World | None, room: Layout | None) -> Any:  # noqa: ANN401
     """The light on the surface with as many terms as there may be, or as there is room for."""
     sg = core()
     angular = _angular_weight(skin.base)
+    environment = world.environment if world is not None else None
     for most in range(MAX_TERMS, -1, -1):
-        found = sg.SurfaceLighting(lights, skin.surface.least, skin.surface.most, None, angular, max_terms=most)
+        found = sg.SurfaceLighting(lights, skin.surface.least, skin.surface.most, environment, angular, max_terms=most)
         if room is None or room.holds(layout_of(found, skin.base[1])):
             return found
     raise SkinError(

@@ -12,6 +12,7 @@ import plots
 import skinglow as sg
 import studies
 import task
+import worlds
 
 PROJECT = Path(__file__).resolve().parents[2]
 IMAGES = PROJECT / "docs" / "images"
@@ -110,6 +111,23 @@ def lamps_section() -> str:
     return page.table(heading, rows)
 
 
+def world_section() -> str:
+    say("worlds")
+    rows = [
+        [
+            e.world,
+            *(f"{100 * value:+.2g}" if abs(value) > 5e-5 else "0" for value in e.at_angles),
+            f"{100 * e.worst:.2g} %" if e.worst > 5e-5 else "below 0.001 %",
+            f"{100 * e.negative:.0f} %",
+            number(e.object_weight) if e.object_weight > 1e-12 else "0",
+        ]
+        for e in worlds.world_errors()
+    ]
+    angles = [f"{angle} deg" for angle in worlds.ANGLES]
+    heading = ["world; % of the largest irradiance", *angles, "worst of 500", "cut off at 0", "object weight, relative"]
+    return page.table(heading, rows)
+
+
 def main() -> None:
     IMAGES.mkdir(parents=True, exist_ok=True)
     say("presets")
@@ -121,6 +139,7 @@ def main() -> None:
         "solver": solver_section(),
         "table": table_section(),
         "estimate": estimate_section(),
+        "worlds": world_section(),
     }
     page.fill(PROJECT / "docs" / "accuracy.md", sections)
     say("docs/accuracy.md and its figures are written")

@@ -121,38 +121,3 @@ TEST(AngularWeight, KeepsDiffuseLightAndTurnsTheRest) {
     EXPECT_THROW(AngularWeight(std::vector<double>{0.5, 0.5}, std::vector<double>{1.0, 2.0}),
                  std::invalid_argument);
 }
-
-TEST(Environment, ConstantColourGivesPiTimesRadiance) {
-    const std::vector<glm::dvec3> pixels(8 * 4, glm::dvec3(0.5, 1.0, 2.0));
-    const Environment image = Environment::from_equirectangular(pixels, 8, 4);
-    RandomScene random(9);
-    for (int i = 0; i < 50; ++i) {
-        EXPECT_NEAR(image.irradiance(random.unit_vector()).b, 2 * pi, 1e-12);
-        EXPECT_NEAR(Environment(glm::dvec3(2.0)).irradiance(random.unit_vector()).b, 2 * pi, 1e-12);
-    }
-    EXPECT_NEAR(image.mean_irradiance().r, 0.5 * pi, 1e-12);
-}
-
-TEST(Environment, ImagesOfTheFirstThreeBandsAreExact) {
-    // Radiance 1 + 0.5 x - 0.3 y + 0.2 z + 0.4 x z: irradiance pi + 2 pi / 3 (...) + pi / 4 (...).
-    constexpr std::size_t width = 512;
-    constexpr std::size_t height = 256;
-    std::vector<glm::dvec3> pixels;
-    for (std::size_t row = 0; row < height; ++row) {
-        for (std::size_t column = 0; column < width; ++column) {
-            const glm::dvec3 d = Environment::direction((static_cast<double>(column) + 0.5) / width,
-                                                        1 - (static_cast<double>(row) + 0.5) / height);
-            pixels.emplace_back(1 + 0.5 * d.x - 0.3 * d.y + 0.2 * d.z + 0.4 * d.x * d.z);
-        }
-    }
-    const Environment image = Environment::from_equirectangular(pixels, width, height);
-    RandomScene random(10);
-    for (int i = 0; i < 50; ++i) {
-        const glm::dvec3 n = random.unit_vector();
-        const double expected =
-            pi + 2 * pi / 3 * (0.5 * n.x - 0.3 * n.y + 0.2 * n.z) + pi / 4 * 0.4 * n.x * n.z;
-        EXPECT_NEAR(image.irradiance(n).g, expected, 2e-4);
-    }
-    EXPECT_THROW(Environment::from_equirectangular(pixels, width, height + 1), std::invalid_argument);
-    EXPECT_THROW(Environment(glm::dvec3(-1.0)), std::invalid_argument);
-}

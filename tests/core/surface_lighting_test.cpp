@@ -148,7 +148,13 @@ TEST(SurfaceLighting, TheWorldIsAsTheEnvironmentSays) {
                                   environment.irradiance(normal, &weight)),
                     0.0, 1e-12);
     }
+    for (int i = 0; i < 200; ++i) {
+        const glm::dvec3 off =
+            glm::abs(environment.irradiance(random.unit_vector()) - environment.mean_irradiance());
+        for (int c = 0; c < 3; ++c) EXPECT_LE(off[c], environment.mean_irradiance_error()[c]);
+    }
     const Environment even(glm::dvec3(0.25));
+    EXPECT_EQ(even.mean_irradiance_error(), glm::dvec3(0.0));
     EXPECT_NEAR(SurfaceLighting({}, head, &even).irradiance(glm::dvec3(0.0), {1, 0, 0}).r, pi * 0.25, 1e-12);
 }
 

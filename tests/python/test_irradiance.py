@@ -140,6 +140,43 @@ def test_environment_and_angles():
     np.testing.assert_allclose((2 * mu[:, None] * weight.at(mu)).mean(axis=0), 1, rtol=1e-6)
 
 
+# Whole numbers and halves: exactly the same in single precision.
+pixel = st.integers(0, 64).map(lambda i: i / 2)
+rotation = st.tuples(direction, direction).filter(lambda v: np.linalg.norm(np.cross(*v)) > 1e-2 * np.linalg.norm(v[0]))
+
+
+@given(st.integers(1, 5), st.integers(1, 5), st.integers(1, 5), st.data())
+def test_environment_of_a_hosts_image_is_that_of_the_turned_over_array(height, width, channels, data):
+    values = data.draw(st.lists(pixel, min_size=height * width * channels, max_size=height * width * channels))
+    pixels = np.array(values, np.float32).reshape(height, width, channels)
+    colors = np.repeat(pixels[:, :, :1], 3, axis=2) if channels < 3 else pixels[:, :, :3]
+    expected = sg.Environment(colors[::-1].astype(float)).coefficients
+    np.testing.assert_array_equal(sg.Environment.from_image(pixels, bottom_first=True).coefficients, expected)
+    np.testing.assert_array_equal(sg.Environment.from_image(pixels[::-1]).coefficients, expected)
+
+
+@given(st.lists(vector, min_size=9, max_size=9), rotation, direction, st.booleans())
+def test_turned_environment_on_a_turned_surface_is_the_same(coefficients, axes, normal, mirrored):
+    x = axes[0] / np.linalg.norm(axes[0])
+    z = np.cross(*axes) / np.linalg.norm(np.cross(*axes))
+    turn = np.array([x, np.cross(z, x), -z if mirrored else z])
+    still = sg.Environment(np.array(coefficients))
+    turned = still.rotated(turn)
+    normals = np.array([normal])
+    found = turned.irradiance(normals @ turn.T)
+    np.testing.assert_allclose(found, still.irradiance(normals), rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(turned.mean_irradiance, still.mean_irradiance)
+
+
+def test_mirror_ball_of_one_colour_and_what_lies_outside_it():
+    pixels = np.full((64, 64, 3), 1e6, np.float32)
+    middles = 2 * (np.arange(64) + 0.5) / 64 - 1
+    pixels[np.add.outer(middles**2, middles**2) <= 1] = (0.5, 1, 2)
+    ball = sg.Environment.from_image(pixels, projection="MIRROR_BALL")
+    np.testing.assert_allclose(ball.mean_irradiance, np.array([0.5, 1, 2]) * PI)
+    np.testing.assert_allclose(ball.coefficients[1:], 0, atol=0.05)
+
+
 @pytest.mark.parametrize(
     ("call", "message"),
     [
@@ -151,6 +188,12 @@ def test_environment_and_angles():
         (lambda: sg.surface_irradiance([], np.zeros((2, 3)), np.zeros((1, 3))), "normals is 1"),
         (lambda: sg.surface_irradiance([], np.zeros(3), np.zeros(3)), r"shape \(n, 3\)"),
         (lambda: sg.Environment(np.zeros((2, 2))), r"\(9, 3\)"),
+        (lambda: sg.Environment.from_image(np.zeros((2, 2))), r"shape \(height, width, channels\)"),
+        (lambda: sg.Environment.from_image(np.zeros((0, 2, 3))), "at least 1"),
+        (lambda: sg.Environment.from_image(np.full((1, 1, 3), np.nan)), "not all finite"),
+        (lambda: sg.Environment.from_image(np.ones((1, 1, 3)), projection="CUBE"), "MIRROR_BALL"),
+        (lambda: sg.Environment((1, 1, 1)).rotated(2 * np.eye(3)), "orthogonal"),
+        (lambda: sg.Environment((1, 1, 1)).rotated(np.eye(3)[:2]), r"shape \(3, 3\)"),
         (lambda: sg.AngularWeight([0, 1], [0, 0]), "above 0"),
         (lambda: sg.LightTree([]).cull((1, 0, 0), (0, 1, 1), 1), "box least"),
         (lambda: sg.black_body_colour(10), "800 to 20000 K"),

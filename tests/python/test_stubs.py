@@ -9,6 +9,8 @@ import skinglow._core as core
 from skinglow import _thickness
 
 PACKAGE = Path(__file__).parents[2] / "python_bindings" / "skinglow"
+#: The types of methods that pybind11 makes.
+METHODS = ("instancemethod", "staticmethod")
 SPECIAL = {"__init__", "__len__", "__eq__"}  # the special methods that a type checker looks at
 
 
@@ -64,14 +66,14 @@ def bound_functions() -> list[str]:
         names += [
             f"{owner}.{name}"
             for name, value in vars(getattr(core, owner)).items()
-            if (is_public(name) or name == "__init__") and type(value).__name__ == "instancemethod"
+            if (is_public(name) or name == "__init__") and type(value).__name__ in METHODS
         ]
     return sorted(names)
 
 
 def bound(name: str) -> object:
     owner, _, method = name.rpartition(".")
-    return vars(getattr(core, owner))[method] if owner else getattr(core, method)
+    return getattr(getattr(core, owner), method) if owner else getattr(core, method)
 
 
 def stubbed(name: str) -> list[ast.FunctionDef]:
@@ -97,7 +99,7 @@ def test_package_exports_every_name_once() -> None:
 @pytest.mark.parametrize("name", public_classes())
 def test_stub_has_the_members_of_the_class(name: str) -> None:
     members = vars(getattr(core, name))
-    made = {key: value for key, value in members.items() if type(value).__name__ in ("instancemethod", "property")}
+    made = {key: value for key, value in members.items() if type(value).__name__ in (*METHODS, "property")}
     in_stub = definitions(*definitions(stub("_core"))[name])
     assert {key for key in in_stub if is_public(key) or key in SPECIAL} == {
         key for key in made if is_public(key) or key in SPECIAL

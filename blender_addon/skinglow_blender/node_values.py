@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a node's socket holds, as far as it can be told without running the nodes."""
+
+import bpy
+
+
+def linked_node(socket: bpy.types.NodeSocket) -> bpy.types.Node | None:
+    """The node linked to an input, past reroutes; None where nothing is."""
+    link = linked_socket(socket)
+    return link.node if link is not None else None
+
+
+def linked_socket(socket: bpy.types.NodeSocket) -> bpy.types.NodeSocket | None:
+    """The output linked to an input, past reroutes; None where nothing is."""
+    if not socket.is_linked:
+        return None
+    source = socket.links[0].from_socket
+    while source.node.bl_idname == "NodeReroute" and source.node.inputs[0].is_linked:
+        source = source.node.inputs[0].links[0].from_socket
+    return source
+
+
+def socket_value(socket: bpy.types.NodeSocket) -> tuple[object, str]:
+    """An input's value and a note of what could not be followed.
+
+    Plain values and RGB and Value nodes are followed; of anything else linked in, the socket's own value is taken and
+    the note says so.
+    """
+    node = linked_node(socket)
+    if node is None:
+        return socket.default_value, ""
+    if node.bl_idname in ("ShaderNodeRGB", "ShaderNodeValue"):
+        value = node.outputs[0].default_value
+        if socket.type == "RGBA" and isinstance(value, float):
+            return (value, value, value), ""
+        if socket.type == "VALUE" and not isinstance(value, float):
+            return socket.default_value, f"its node '{node.name}' is a colour linked to {socket.name}"
+        return value, ""
+    return socket.default_value, f"its node '{node.name}' is not followed; {socket.name}'s own value is used"
