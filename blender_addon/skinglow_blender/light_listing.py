@@ -7,8 +7,9 @@ import bpy
 import numpy as np
 
 from .errors import core
+from .occlusion import with_visible_shares
 from .scene_lights import Lamp, make_light
-from .scene_reading import Skin, read_scene, read_skin
+from .scene_reading import SceneReading, Skin, read_scene, read_skin
 from .skin import skin_settings_of
 
 
@@ -20,13 +21,16 @@ def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[
     weight    (3,) float64: colour times attenuation in modes existing and paper; irradiance, W/m^2, in mode physical
     distance  from the skin's reference point, scene units; 0 for a sun, None for a lamp that is not in the depsgraph
     share     of the sum of all weights, 0 to 1
+    visible   share of its light that other objects let through to the skin's far side, 0 to 1; 1 unless the scene's
+              occlusion is on and the mode physical
     reason    why its weight is zero, in words, or ""
     note      what of it could not be taken over, or ""
     """
     skin_settings_of(obj)
     evaluated = obj.evaluated_get(depsgraph)
     skin = read_skin(evaluated, evaluated.matrix_world)
-    lamps = read_scene(depsgraph).lamps
+    reading = SceneReading(read_scene(depsgraph).lamps, [(obj, skin)])
+    lamps = with_visible_shares(reading, depsgraph, {}).lamps
     rows = [_row(skin, lamp) for lamp in lamps]
     total = sum(float(np.sum(row["weight"])) for row in rows)
     for row in rows:
@@ -41,6 +45,7 @@ def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[
                     "weight": np.zeros(3),
                     "distance": None,
                     "share": 0.0,
+                    "visible": 1.0,
                     "reason": _why_hidden(other, depsgraph),
                     "note": "",
                 }
@@ -51,10 +56,13 @@ def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[
 def _row(skin: Skin, lamp: Lamp) -> dict[str, Any]:
     sg = core()
     weight, distance, reason = np.zeros(3), None, lamp.left_out
+    visible, note = lamp.visible.get(skin.key, 1.0), lamp.note
+    if 0.0 < visible < 1.0:
+        note = "; ".join(filter(None, (note, f"other objects let {visible:.1%} of it through")))
     if not reason and not lamp.lights(skin.name):
         reason = "light linking keeps it from this object"
     try:
-        light = make_light(lamp)
+        light = make_light(lamp.seen_by(skin.key))
         found = sg.light_report([light], skin.point)[0]
         distance = found["distance"]
         if not reason:
@@ -63,7 +71,13 @@ def _row(skin: Skin, lamp: Lamp) -> dict[str, Any]:
             else:
                 weight = sg.light_weights([light], skin.point, skin.attenuation)[0]
             if not np.any(weight):
-                reason = found["state"] if found["state"] != "shines" else "its attenuation is 0"
+                reason = (
+                    "occluded"
+                    if visible == 0.0
+                    else found["state"]
+                    if found["state"] != "shines"
+                    else "its attenuation is 0"
+                )
     except ValueError as error:
         reason = reason or str(error)
     return {
@@ -72,8 +86,9 @@ def _row(skin: Skin, lamp: Lamp) -> dict[str, Any]:
         "weight": weight,
         "distance": distance,
         "share": 0.0,
+        "visible": visible,
         "reason": reason,
-        "note": lamp.note,
+        "note": note,
     }
 
 

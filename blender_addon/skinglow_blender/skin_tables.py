@@ -33,8 +33,8 @@ def signature_of(skin: Skin, lamps: list[Lamp]) -> tuple:
 
 
 def lamps_of(skin: Skin, lamps: list[Lamp]) -> list[Lamp]:
-    """The lamps that reach this skin."""
-    return [lamp for lamp in lamps if not lamp.left_out and lamp.lights(skin.name)]
+    """The lamps that reach this skin, as far as it sees them."""
+    return [lamp.seen_by(skin.key) for lamp in lamps if not lamp.left_out and lamp.lights(skin.name)]
 
 
 def compute_table(skin: Skin, lamps: list[Lamp]) -> Table:

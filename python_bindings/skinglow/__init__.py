@@ -32,6 +32,7 @@ from skinglow._core import (
     diffusion_transmittance,
     directional_transmittance,
     exposure_factor,
+    far_side,
     far_side_irradiance,
     irradiance,
     irradiances,
@@ -58,6 +59,7 @@ from skinglow._core import (
     transmittance,
     unnormalised_power_factor,
 )
+from skinglow._occlusion import Occluders, VisibleShare
 from skinglow._thickness import thickness
 
 __all__ = [
@@ -107,6 +109,7 @@ __all__ = [
     "Environment",
     "black_body_colour",
     "exposure_factor",
+    "far_side",
     "far_side_irradiance",
     "irradiance",
     "irradiances",
@@ -121,5 +124,7 @@ __all__ = [
     # POV-Ray
     "povray_scene",
     # Meshes
+    "Occluders",
+    "VisibleShare",
     "thickness",
 ]

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Places on a skin's far side, where the light comes in."""
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from . import thickness_attribute
+from .errors import core
+from .mesh_reading import evaluated_mesh
+from .scene_reading import Skin
+
+#: Places that stand for a skin; docs/accuracy.md has the error by their number.
+PLACES = 256
+
+
+class FarSide(NamedTuple):
+    """World, scene units."""
+
+    points: np.ndarray  #: (n, 3) float64
+    normals: np.ndarray  #: (n, 3) float64, unit, out of the far side
+
+
+def far_side_of(obj: bpy.types.Object, matrix: Matrix, skin: Skin, scene: bpy.types.Scene) -> FarSide:
+    """Far sides x - d n of some vertices of an evaluated skin object at that world matrix.
+
+    Of those thinner than the lookup's last entry, if there are any: thicker ones let next to nothing through.
+    """
+    to_world = np.array(matrix, np.float64)
+    with evaluated_mesh(obj) as mesh:
+        count = len(mesh.vertices)
+        attribute = mesh.attributes.get(thickness_attribute.THICKNESS_ATTRIBUTE)
+        if attribute is None or len(attribute.data) != count or count == 0:
+            return FarSide(np.empty((0, 3)), np.empty((0, 3)))
+        thickness_mm, vertices, normals = (np.empty(width * count, np.float32) for width in (1, 3, 3))
+        attribute.data.foreach_get("value", thickness_mm)
+        mesh.vertices.foreach_get("co", vertices)
+        mesh.vertices.foreach_get("normal", normals)
+    original = obj.original
+    measured = original.data.get(thickness_attribute.MEASURED_SIZE, skin.world_size)
+    grown = skin.world_size / measured if measured > 0.0 else 1.0
+    thin = np.flatnonzero(thickness_mm * grown < skin.base[2])
+    among = thin if len(thin) else np.arange(count)
+    chosen = among[_some_of(len(among))]
+    depth = thickness_mm[chosen].astype(np.float64) * grown / thickness_attribute.unit_mm(original, scene)
+    world = vertices.reshape(-1, 3)[chosen] @ to_world[:3, :3].T + to_world[:3, 3]
+    # Normals go with the inverse transpose.
+    facing = np.linalg.solve(to_world[:3, :3].T, normals.reshape(-1, 3)[chosen].T.astype(np.float64)).T
+    return FarSide(*core().far_side(world, facing, depth))
+
+
+@lru_cache(maxsize=64)
+def _some_of(count: int) -> np.ndarray:
+    """Indices of at most PLACES of so many things, the same each time."""
+    if count <= PLACES:
+        return np.arange(count)
+    return np.sort(np.random.default_rng(1).choice(count, PLACES, replace=False))
