@@ -32,29 +32,34 @@ class MeshCache:
     def __init__(self) -> None:
         self._before: dict[tuple, MeshArrays] = {}
         self._now: dict[tuple, MeshArrays] = {}
+        self._by_address: dict[int, MeshArrays] = {}
 
     def start(self) -> None:
         """Another walk begins; what the last one did not see is forgotten."""
-        self._before, self._now = self._now, {}
+        self._before, self._now, self._by_address = self._now, {}, {}
 
     def read(self, obj: bpy.types.Object) -> MeshArrays:
         """The arrays of an evaluated object."""
         with evaluated_mesh(obj) as mesh:
-            # Two meshes that exist at once never share an address; contents decide whether it is the one of before.
-            key = (mesh.as_pointer(), len(mesh.vertices), len(mesh.loops), len(mesh.polygons))
-            if obj.mode != "EDIT" and key in self._now:
-                return self._now[key]
+            # Many instances show one mesh. A copy is gone by the next, which may come to the same address.
+            address = mesh.as_pointer() if obj.mode != "EDIT" else 0
+            if address in self._by_address:
+                return self._by_address[address]
             vertices = _numbers(mesh.vertices, "co", 3, np.float32).reshape(-1, 3)
             corners = _numbers(mesh.loops, "vertex_index", 1, np.int32)
             faces = _numbers(mesh.polygons, "loop_start", 1, np.int32)
-            old = self._before.get(key)
-            if old is not None and _same(old, vertices, corners, faces):
-                self._now[key] = old
-                return old
-            mesh.calc_loop_triangles()
-            triangles = _numbers(mesh.loop_triangles, "vertices", 3, np.int32).reshape(-1, 3)
-            self._now[key] = MeshArrays(next(_versions), vertices, triangles, corners, faces)
-            return self._now[key]
+            # An object may show several meshes of one size, as instances: told apart by their order.
+            name = (obj.original.name_full, len(vertices), len(corners), len(faces))
+            key = next((*name, i) for i in count() if (*name, i) not in self._now)
+            arrays = self._before.get(key)
+            if arrays is None or not _same(arrays, vertices, corners, faces):
+                mesh.calc_loop_triangles()
+                triangles = _numbers(mesh.loop_triangles, "vertices", 3, np.int32).reshape(-1, 3)
+                arrays = MeshArrays(next(_versions), vertices, triangles, corners, faces)
+            self._now[key] = arrays
+            if address:
+                self._by_address[address] = arrays
+            return arrays
 
 
 @contextmanager

@@ -55,8 +55,8 @@ def test_own_mesh_is_left_out():
     scene = sg.Occluders([skin, wall])
     assert len(scene) == 2
     assert scene.triangles > 2
-    points, normals = sg.far_side([[0, 0, 1.0]], [[0, 0, 1.0]], 1.5)  # within the ball, facing down
-    np.testing.assert_allclose(points, [[0, 0, -0.5]])
+    points, normals = sg.far_side([[0.1, 0.05, 1.0]], [[0, 0, 1.0]], 1.5)  # within the ball, facing down
+    np.testing.assert_allclose(points, [[0.1, 0.05, -0.5]])
     np.testing.assert_allclose(normals, [[0, 0, -1]])
     below, above = sg.Light(position=(0, 0, -4)), sg.Light(position=(0, 0, 4))
     assert seen(scene, below, points, normals) == 0
