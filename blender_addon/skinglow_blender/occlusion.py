@@ -118,7 +118,7 @@ def _walk(depsgraph: bpy.types.Depsgraph, skins: dict[str, Skin], cache: MeshCac
     """Bodies in the depsgraph's order, and the skins' far sides; instances hold good only while it is walked."""
     walk = _Walk([], {}, {}, {})
     layer = depsgraph.view_layer if depsgraph.mode == "VIEWPORT" else None
-    cache.start()
+    cache.start(depsgraph)
     for instance in depsgraph.object_instances:
         obj, parent = instance.object, instance.parent
         if obj.type != "MESH" or not instance.show_self:
