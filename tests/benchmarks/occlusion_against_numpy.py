@@ -1,6 +1,6 @@
 """Shadow rays a second by skinglow.Occluders against Moeller and Trumbore in numpy, and error by samples.
 
-`python tests/benchmarks/occlusion_against_numpy.py` prints both as tables; the second is in docs/accuracy.md.
+`python tests/benchmarks/occlusion_against_numpy.py` prints both as tables, which are in docs/accuracy.md.
 """
 
 import time
