@@ -6,6 +6,7 @@ void bind_slab(pybind11::module_& m);
 void bind_tissue(pybind11::module_& m);
 void bind_irradiance(pybind11::module_& m);
 void bind_povray(pybind11::module_& m);
+void bind_surface_lighting(pybind11::module_& m);
 
 PYBIND11_MODULE(_core, m) {
     m.doc() =
@@ -22,6 +23,7 @@ PYBIND11_MODULE(_core, m) {
 #ifdef SKINGLOW_BIND_IRRADIANCE
     bind_irradiance(m);
 #endif
+    bind_surface_lighting(m);
 #ifdef SKINGLOW_BIND_POVRAY
     bind_povray(m);
 #endif

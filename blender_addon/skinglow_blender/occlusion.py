@@ -42,14 +42,14 @@ class _Occluders:
         if self.bodies == walk.bodies:
             return
         self.bodies = self.scene = None
-        near = next(iter(walk.places.values())).points
+        near = next((far.points for far in walk.places.values() if len(far.points)), None)
         meshes = []
         for body in walk.bodies:
             arrays = walk.meshes[body.version]
             matrix = np.array(body.matrix).reshape(4, 4)
             meshes.append((arrays.vertices @ matrix[:3, :3].T + matrix[:3, 3], arrays.triangles))
         # Single precision is best about the origin: there, where the skins are.
-        self.scene = core().Occluders(meshes, near.mean(axis=0) if len(near) else None)
+        self.scene = core().Occluders(meshes, near.mean(axis=0) if near is not None else None)
         self.bodies = walk.bodies
 
 
@@ -130,7 +130,7 @@ def _walk(depsgraph: bpy.types.Depsgraph, skins: dict[str, Skin], cache: MeshCac
         matrix = instance.matrix_world
         is_skin = key in skins and key not in walk.places
         if is_skin:
-            walk.places[key] = far_side_of(obj, matrix, skins[key], depsgraph.scene)
+            walk.places[key] = far_side_of(obj, matrix, skins[key])
         if not obj.visible_shadow or (instance.is_instance and not parent.visible_shadow):
             continue
         arrays = cache.read(obj)

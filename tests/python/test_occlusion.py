@@ -65,6 +65,20 @@ def test_own_mesh_is_left_out():
     assert seen(scene, above, points, -normals, without=[0, 1]) == 1
 
 
+def test_far_side_is_where_its_irradiance_is_taken():
+    random = np.random.default_rng(4)
+    vertices, normals, depth = *random.normal(size=(2, 20, 3)), random.uniform(0, 2, 20)
+    points, facing = sg.far_side(vertices, normals, depth)
+    np.testing.assert_allclose(points, vertices - depth[:, None] * normals / np.linalg.norm(normals, axis=1)[:, None])
+    np.testing.assert_allclose(np.linalg.norm(facing, axis=1), 1)
+    lamp = [sg.Light(position=(0, 0, 5), power=9)]
+    np.testing.assert_allclose(
+        sg.surface_irradiance(lamp, points, facing), sg.far_side_irradiance(lamp, vertices, normals, depth)
+    )
+    with pytest.raises(ValueError, match=r"depth\[1\] is -1"):
+        sg.far_side(vertices[:2], normals[:2], [0, -1])
+
+
 def test_mean_counts_points_by_what_the_lamp_would_bring():
     lamp = sg.Light(position=(0, 0, 2))
     points, normals = np.array([[0, 0, 0], [3, 0, 0], [0, 0, 0]], float), np.array([[0, 0, 1], [-1, 0, 1], [0, 0, -1]])

@@ -283,6 +283,56 @@ def check_thick_places_do_not_count(_work):
     assert some != others, (some, others)
 
 
+def check_a_skin_that_is_hidden_or_flat(_work):
+    point_lamp()
+    obj = head()
+    switch()
+    between = wall()
+    layer = bpy.context.view_layer.layer_collection
+    collection = bpy.data.collections.new("Cast")
+    bpy.context.scene.collection.children.link(collection)
+    bpy.context.scene.collection.objects.unlink(obj)
+    collection.objects.link(obj)
+    layer.children["Cast"].hide_viewport = True
+    sb.update(depsgraph())
+    layer.children["Cast"].hide_viewport = False
+    sb.update(depsgraph())
+    assert brightness(obj) == 0.0
+    obj.scale = (1.0, 1.0, 0.0)
+    sb.update(depsgraph())
+    obj.scale = (-1.0, 1.0, 2.0)  # mirrored: its far sides still face outwards
+    between.location.x = 5.0
+    lit = brightness(obj)
+    assert lit > 0.0 and row_of(obj)["visible"] == 1.0
+
+
+def check_undo_save_and_load(work):
+    point_lamp()
+    free = brightness(head())
+    switch()
+    wall(location=(5.0, 0.0, 0.5))
+    depsgraph()
+    bpy.ops.ed.undo_push(message="aside")
+    bpy.data.objects["Wall"].location.x = 0.0
+    assert brightness(bpy.data.objects["Head"]) == 0.0
+    bpy.ops.ed.undo_push(message="between")
+    bpy.ops.ed.undo()
+    sb.update(depsgraph())
+    assert brightness(bpy.data.objects["Head"]) == free
+    bpy.ops.ed.redo()
+    sb.update(depsgraph())
+    assert brightness(bpy.data.objects["Head"]) == 0.0
+    path = str(work / "occluded.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    assert not bpy.context.scene.skinglow.occlusion
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert bpy.context.scene.skinglow.occlusion
+    assert brightness(bpy.data.objects["Head"]) == 0.0
+    bpy.data.objects["Wall"].location.x = 5.0
+    assert brightness(bpy.data.objects["Head"]) == free
+
+
 def check_faults_keep_the_last_lookup(_work):
     point_lamp()
     obj = head()
