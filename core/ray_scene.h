@@ -2,25 +2,21 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "embree_triangles.h"
 #include "welded_mesh.h"
 
 namespace skinglow {
 
-/// Embree, behind a door of its own: nothing else of ours includes it. Embree 3 and 4 are both served.
+/// A mesh that rays go through, for its thickness.
 class RayScene {
   public:
-    /// Builds the acceleration structure. The mesh must outlive the scene.
-    /// Throws std::runtime_error where Embree cannot work, or is not the version this was built for.
+    /// Builds the acceleration structure. The mesh must outlive the scene. Throws as EmbreeTriangles.
     explicit RayScene(const WeldedMesh& mesh);
-    ~RayScene();
-    RayScene(const RayScene&) = delete;
-    RayScene& operator=(const RayScene&) = delete;
 
     /// Share of the light of an even sky that reaches a triangle's outer side, [0, 1]: rays by Lambert's
     /// cosine from its middle, those that nothing stops. 1 on a convex body, 0 in a closed cavity.
@@ -38,10 +34,9 @@ class RayScene {
     std::optional<std::uint32_t> exit_triangle(std::uint32_t welded, const glm::dvec3& direction) const;
 
   private:
-    struct Embree;
     const WeldedMesh& mesh_;
     std::vector<std::uint8_t> closed_;
-    std::unique_ptr<Embree> embree_;
+    EmbreeTriangles triangles_;
 };
 
 }  // namespace skinglow

@@ -140,7 +140,9 @@ bool all_finite(std::span<const glm::dvec3> values) {
     return bad == 0;
 }
 
-void validate_places(std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals) {
+}  // namespace
+
+void require_places(std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals) {
     if (points.size() != normals.size()) {
         refuse_argument("number of normals", std::to_string(normals.size()),
                         "as many as points (" + std::to_string(points.size()) + ")");
@@ -158,12 +160,10 @@ void validate_places(std::span<const glm::dvec3> points, std::span<const glm::dv
     validate_all("normals", normals);
 }
 
-}  // namespace
-
 std::vector<glm::dvec3> surface_irradiance(std::span<const Light> lights, std::span<const glm::dvec3> points,
                                            std::span<const glm::dvec3> normals,
                                            const SurfaceOptions& options) {
-    validate_places(points, normals);
+    require_places(points, normals);
     require_positive("area_tolerance", options.area_tolerance);
     const std::vector<Lamp> lamps = prepare(lights);
     std::vector<glm::dvec3> sums(points.size());
@@ -190,11 +190,9 @@ std::vector<glm::dvec3> surface_irradiance(std::span<const Light> lights, std::s
     return sums;
 }
 
-std::vector<glm::dvec3> far_side_irradiance(std::span<const Light> lights,
-                                            std::span<const glm::dvec3> vertices,
-                                            std::span<const glm::dvec3> normals,
-                                            std::span<const double> depth, const SurfaceOptions& options) {
-    validate_places(vertices, normals);
+Places far_side(std::span<const glm::dvec3> vertices, std::span<const glm::dvec3> normals,
+                std::span<const double> depth) {
+    require_places(vertices, normals);
     if (depth.size() != vertices.size() && depth.size() != 1) {
         refuse_argument("number of depths", std::to_string(depth.size()),
                         "1 or as many as vertices (" + std::to_string(vertices.size()) + ")");
@@ -204,13 +202,20 @@ std::vector<glm::dvec3> far_side_irradiance(std::span<const Light> lights,
         if (!(depth[i] >= 0.0 && std::isfinite(depth[i])))
             require_not_negative("depth[" + std::to_string(i) + "]", depth[i]);
     }
-    std::vector<glm::dvec3> points(vertices.size());
-    std::vector<glm::dvec3> facing(vertices.size());
+    Places far{std::vector<glm::dvec3>(vertices.size()), std::vector<glm::dvec3>(vertices.size())};
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        if (normals[i] != glm::dvec3(0.0)) facing[i] = -unit(normals[i]);
-        points[i] = vertices[i] + facing[i] * (depth.size() == 1 ? depth[0] : depth[i]);
+        if (normals[i] != glm::dvec3(0.0)) far.normals[i] = -unit(normals[i]);
+        far.points[i] = vertices[i] + far.normals[i] * (depth.size() == 1 ? depth[0] : depth[i]);
     }
-    return surface_irradiance(lights, points, facing, options);
+    return far;
+}
+
+std::vector<glm::dvec3> far_side_irradiance(std::span<const Light> lights,
+                                            std::span<const glm::dvec3> vertices,
+                                            std::span<const glm::dvec3> normals,
+                                            std::span<const double> depth, const SurfaceOptions& options) {
+    const Places far = far_side(vertices, normals, depth);
+    return surface_irradiance(lights, far.points, far.normals, options);
 }
 
 }  // namespace skinglow

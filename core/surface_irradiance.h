@@ -31,9 +31,23 @@ std::vector<glm::dvec3> surface_irradiance(std::span<const Light> lights, std::s
                                            std::span<const glm::dvec3> normals,
                                            const SurfaceOptions& options = {});
 
-/// The same on the far side of skin: at x - d n, facing along -n.
+/// Throws std::invalid_argument unless there are as many normals as points, all finite; names the entry.
+void require_places(std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals);
+
+/// Points of a surface and where it faces there.
+struct Places {
+    std::vector<glm::dvec3> points;
+    std::vector<glm::dvec3> normals;  ///< unit, or 0
+};
+
+/// The far side of skin: at x - d n, facing along -n.
 /// @param vertices, normals  of the near side, as above; normals are taken at length 1
 /// @param depth  d, one per vertex or one for all, in the scene's unit, finite, 0 or more
+/// Throws std::invalid_argument on bad input, naming the entry.
+Places far_side(std::span<const glm::dvec3> vertices, std::span<const glm::dvec3> normals,
+                std::span<const double> depth);
+
+/// surface_irradiance on the far side of skin. Parameters and errors as both.
 std::vector<glm::dvec3> far_side_irradiance(std::span<const Light> lights,
                                             std::span<const glm::dvec3> vertices,
                                             std::span<const glm::dvec3> normals,

@@ -4,43 +4,14 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <numeric>
-#include <string>
 #include <tuple>
 
 #include "argument_check.h"
+#include "mesh_check.h"
 
 namespace skinglow {
 namespace {
-
-/// Below this share of its longest edge's square, a triangle's area is rounding and its normal means nothing.
-constexpr double smallest_area_share = 1e-12;
-
-void validate(std::span<const glm::dvec3> vertices, std::span<const glm::uvec3> triangles) {
-    constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max() - 1;
-    if (vertices.size() > most || triangles.size() > most / 3) {
-        refuse_argument(
-            "mesh",
-            std::to_string(vertices.size()) + " vertices, " + std::to_string(triangles.size()) + " triangles",
-            "numbers that 32 bits can count");
-    }
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        if (!std::isfinite(vertices[i].x) || !std::isfinite(vertices[i].y) || !std::isfinite(vertices[i].z)) {
-            refuse_argument("vertices[" + std::to_string(i) + "]", to_text(vertices[i]),
-                            "three finite numbers");
-        }
-    }
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const glm::uvec3& t = triangles[i];
-        if (std::max({t.x, t.y, t.z}) >= vertices.size()) {
-            refuse_argument(
-                "triangles[" + std::to_string(i) + "]",
-                "(" + std::to_string(t.x) + ", " + std::to_string(t.y) + ", " + std::to_string(t.z) + ")",
-                "indices below " + std::to_string(vertices.size()) + ", the number of vertices");
-        }
-    }
-}
 
 bool position_less(const glm::dvec3& a, const glm::dvec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
@@ -54,7 +25,7 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
 }  // namespace
 
 WeldedMesh::WeldedMesh(std::span<const glm::dvec3> vertices, std::span<const glm::uvec3> triangles) {
-    validate(vertices, triangles);
+    require_mesh("", vertices, triangles);
     weld(vertices);
     normalise(vertices, triangles);
     add_triangles(triangles);
@@ -115,7 +86,7 @@ void WeldedMesh::add_triangles(std::span<const glm::uvec3> triangles) {
         const double longest = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(b - a, b - a)});
         const glm::dvec3 doubled_area = glm::cross(a, b);
         const double area = glm::length(doubled_area);
-        if (!(area > smallest_area_share * longest)) continue;
+        if (!has_area(area, longest)) continue;
         const glm::dvec3 normal = doubled_area / area;
         triangles_.push_back({corners, normal, glm::dot(normal, p)});
     }

@@ -118,6 +118,22 @@ points, normals  (n, 3), finite; normals of any length, (0, 0, 0) receives nothi
 tolerance        relative, of the integrals for elliptic lamps and spreads
 threads          0: one for each processor. Raises ValueError naming the entry.)");
     m.def(
+        "far_side",
+        [](py::handle vertices, py::handle normals, py::handle depth) {
+            const numpy::Array places = numpy::to_array(vertices, "vertices");
+            const numpy::Array directions = numpy::to_array(normals, "normals");
+            const numpy::Array depths = numpy::to_array(depth, "depth");
+            Places far = far_side(view_of_vec3s(places, "vertices"), view_of_vec3s(directions, "normals"),
+                                  view_of_doubles(depths, "depth"));
+            return py::make_tuple(numpy::from_vec3s(std::move(far.points)),
+                                  numpy::from_vec3s(std::move(far.normals)));
+        },
+        "vertices"_a, "normals"_a, "depth"_a,
+        R"(The far side of skin: (points, normals), each (n, 3): x - d n, facing along -n, of length 1.
+
+vertices, normals  (n, 3), finite; a normal of (0, 0, 0) stays, and its point is the vertex
+depth              d, (n,) or one for all, in the vertices' unit, 0 or more. Raises ValueError naming the entry.)");
+    m.def(
         "far_side_irradiance",
         [](const std::vector<Light>& lights, py::handle vertices, py::handle normals, py::handle depth,
            const AngularWeight* angular_weight, const Environment* environment, double tolerance,

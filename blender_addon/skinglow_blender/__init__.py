@@ -10,7 +10,18 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any
 
-from . import bundled_core, handlers, light_listing, lut_preview, operators, panel, povray_export, skin, skin_settings
+from . import (
+    bundled_core,
+    handlers,
+    light_listing,
+    lut_preview,
+    operators,
+    panel,
+    povray_export,
+    scene_settings,
+    skin,
+    skin_settings,
+)
 from .errors import SkinError
 from .live_update import Rebuilt
 from .skin import SkinState
@@ -39,7 +50,7 @@ __all__ = [
     "update",
 ]
 
-_PARTS = (bundled_core, skin_settings, lut_preview, operators, panel, handlers)
+_PARTS = (bundled_core, skin_settings, scene_settings, lut_preview, operators, panel, handlers)
 _registered = False
 
 

@@ -93,6 +93,11 @@ def light_is_normalized(light: bpy.types.Light) -> bool:
     return getattr(light, "normalize", True)
 
 
+def light_casts_shadows(light: bpy.types.Light) -> bool:
+    """Whether objects stop a lamp's light: EEVEE's switch, from 4.2 that of both, and Cycles' own before."""
+    return getattr(light, "use_shadow", True) and getattr(getattr(light, "cycles", None), "cast_shadow", True)
+
+
 def light_receivers(obj: bpy.types.Object) -> bpy.types.Collection | None:
     """The collection of objects a lamp is linked to (4.0); None: it lights all."""
     linking = getattr(obj, "light_linking", None)

@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 from bpy.app.handlers import persistent
 
-from . import world_image
+from . import occlusion, world_image
 from .errors import SkinError
 from .live_update import STATE, update_scene
 from .lut_image import images_of, skin_groups
@@ -82,6 +82,7 @@ def on_render_end(_scene: bpy.types.Scene, _unused: None) -> None:
     """The render is over, or was cancelled: the viewport's lookups come back."""
     STATE.rendering = False
     STATE.render_frame = None
+    occlusion.forget("RENDER")
     show_viewport()
 
 
@@ -134,6 +135,7 @@ def forget_all() -> None:
     STATE.render_frame = None
     STATE.forget()
     world_image.forget()
+    occlusion.forget()
 
 
 @guarded

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from .errors import core
+from .occlusion import with_visible_shares
 from .scene_lights import Lamp, make_light
 from .scene_reading import Skin, read_scene, read_skin
 from .scene_world import World
@@ -22,14 +23,16 @@ def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[
     distance  from the skin's reference point, scene units; 0 for a sun and the world, None for a lamp that is not in
               the depsgraph
     share     of the sum of all weights, 0 to 1
+    visible   share of its light that other objects let through to the skin's far side, 0 to 1; 1 unless the scene's
+              occlusion is on and the mode physical
     reason    why its weight is zero, in words, or ""
     note      what of it could not be taken over, or ""
     """
     skin_settings_of(obj)
     evaluated = obj.evaluated_get(depsgraph)
     skin = read_skin(evaluated, evaluated.matrix_world)
-    reading = read_scene(depsgraph)
-    lamps = reading.lamps
+    reading = read_scene(depsgraph)._replace(skins=[(obj, skin)])
+    lamps = with_visible_shares(reading, depsgraph, {}).lamps
     rows = [_row(skin, lamp) for lamp in lamps]
     if reading.world is not None:
         rows.append(_world_row(skin, reading.world))
@@ -46,6 +49,7 @@ def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[
                     "weight": np.zeros(3),
                     "distance": None,
                     "share": 0.0,
+                    "visible": 1.0,
                     "reason": _why_hidden(other, depsgraph),
                     "note": "",
                 }
@@ -56,10 +60,13 @@ def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[
 def _row(skin: Skin, lamp: Lamp) -> dict[str, Any]:
     sg = core()
     weight, distance, reason = np.zeros(3), None, lamp.left_out
+    visible, note = lamp.visible.get(skin.key, 1.0), lamp.note
+    if 0.0 < visible < 1.0:
+        note = "; ".join(filter(None, (note, f"other objects let {visible:.1%} of it through")))
     if not reason and not lamp.lights(skin.name):
         reason = "light linking keeps it from this object"
     try:
-        light = make_light(lamp)
+        light = make_light(lamp.seen_by(skin.key))
         found = sg.light_report([light], skin.point)[0]
         distance = found["distance"]
         if not reason:
@@ -68,7 +75,13 @@ def _row(skin: Skin, lamp: Lamp) -> dict[str, Any]:
             else:
                 weight = sg.light_weights([light], skin.point, skin.attenuation)[0]
             if not np.any(weight):
-                reason = found["state"] if found["state"] != "shines" else "its attenuation is 0"
+                reason = (
+                    "occluded"
+                    if visible == 0.0
+                    else found["state"]
+                    if found["state"] != "shines"
+                    else "its attenuation is 0"
+                )
     except ValueError as error:
         reason = reason or str(error)
     return {
@@ -77,8 +90,9 @@ def _row(skin: Skin, lamp: Lamp) -> dict[str, Any]:
         "weight": weight,
         "distance": distance,
         "share": 0.0,
+        "visible": visible,
         "reason": reason,
-        "note": lamp.note,
+        "note": note,
     }
 
 

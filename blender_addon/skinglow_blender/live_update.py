@@ -9,6 +9,7 @@ import numpy as np
 from .errors import SkinError
 from .lut_image import Atlas, ensure_images, has_room
 from .lut_layout import layout_of, plain_row, surface_row
+from .occlusion import with_visible_shares
 from .scene_lights import FIELDS
 from .scene_reading import ROW_PROPERTY, SceneReading, Skin, read_scene
 from .skin_group import build_plain
@@ -57,9 +58,9 @@ def update_scene(depsgraph: bpy.types.Depsgraph, only_live: bool = False) -> lis
 
     A skin with a fault keeps its last good table. With only_live, skins that are not set to follow are left.
     """
-    reading = read_scene(depsgraph)
-    rebuilt: list[Rebuilt] = []
     faults: dict[str, str] = {}
+    reading = with_visible_shares(read_scene(depsgraph), depsgraph, faults)
+    rebuilt: list[Rebuilt] = []
     groups: dict[str, tuple[bpy.types.NodeTree, list[tuple[bpy.types.Object, Skin]]]] = {}
     for obj, skin in reading.skins:
         if only_live and not skin.live:

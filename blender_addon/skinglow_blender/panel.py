@@ -23,7 +23,7 @@ class _SkinPanel:
                 layout.label(text=f"{max(obj.dimensions) * unit_mm(obj, context.scene):.4g} mm across")
                 layout.prop(obj.skinglow, "unit_mm")
             return
-        _draw_settings(layout, obj.skinglow)
+        _draw_settings(layout, obj.skinglow, context.scene)
         icon = icon_of(obj, context.view_layer.depsgraph)
         if icon:
             layout.template_icon(icon_value=icon, scale=4.0)
@@ -55,7 +55,7 @@ def _draw_faults(layout: bpy.types.UILayout) -> None:
             line += word + " "
 
 
-def _draw_settings(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
+def _draw_settings(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) -> None:
     layout.row().prop(settings, "mode", expand=True)
     layout.prop(settings, "strength")
     if settings.mode == "PAPER":
@@ -76,6 +76,8 @@ def _draw_settings(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup
         layout.prop(settings, "reference")
         if settings.reference == "POINT":
             layout.prop(settings, "reference_point")
+    if settings.mode == "PHYSICAL":
+        layout.prop(scene.skinglow, "occlusion")
 
 
 def _draw_lamps(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context) -> None:

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The lamps of an evaluated scene as `skinglow.Light`, with what decides whether anything changed."""
 
+from collections.abc import Mapping
 from functools import lru_cache
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import bpy
@@ -12,7 +14,7 @@ from .errors import core
 from .light_nodes import node_factor
 
 #: What a lamp's signature holds, in words.
-FIELDS = ("name", "type", "colour", "power", "position", "direction", "shape", "normalisation")
+FIELDS = ("name", "type", "colour", "power", "position", "direction", "shape", "normalisation", "visible share")
 
 
 class Lamp(NamedTuple):
@@ -24,12 +26,19 @@ class Lamp(NamedTuple):
     excluded: frozenset[str]  #: names of objects it does not light
     left_out: str  #: why it gives no light, or ""
     note: str  #: what could not be taken over, or ""
+    casts_shadows: bool = True
+    visible: Mapping[str, float] = MappingProxyType({})  #: share seen, 0 to 1, by key of a skin; not there: all
 
     def lights(self, obj_name: str) -> bool:
         """Whether light linking lets this lamp reach that object."""
         if obj_name in self.excluded:
             return False
         return self.receivers is None or obj_name in self.receivers
+
+    def seen_by(self, skin_key: str) -> "Lamp":
+        """The lamp as far as that skin sees it."""
+        share = self.visible.get(skin_key, 1.0)
+        return self if share == 1.0 else self._replace(signature=(*self.signature[:-1], share))
 
 
 def read_lamp(obj: bpy.types.Object, matrix: Matrix, name: str) -> Lamp:
@@ -56,9 +65,10 @@ def read_lamp(obj: bpy.types.Object, matrix: Matrix, name: str) -> Lamp:
     shape = tuple(_shape(light, kind, matrix).items())
     where = matrix.col[3]
     normalized = blender_version.light_is_normalized(light)
-    signature = (name, kind, color, power, (where[0], where[1], where[2]), direction, shape, normalized)
+    signature = (name, kind, color, power, (where[0], where[1], where[2]), direction, shape, normalized, 1.0)
     receivers, excluded = _linked_objects(obj)
-    return Lamp(name, signature, receivers, excluded, _why_dark(obj, kind, direction), note)
+    why_dark = _why_dark(obj, kind, direction)
+    return Lamp(name, signature, receivers, excluded, why_dark, note, blender_version.light_casts_shadows(light))
 
 
 def make_light(lamp: Lamp) -> Any:  # noqa: ANN401  a skinglow.Light
@@ -69,7 +79,8 @@ def make_light(lamp: Lamp) -> Any:  # noqa: ANN401  a skinglow.Light
 @lru_cache(maxsize=4096)
 def _light_of(signature: tuple) -> Any:  # noqa: ANN401
     sg = core()
-    name, kind, color, power, position, direction, shape, normalized = signature
+    name, kind, color, power, position, direction, shape, normalized, visible = signature
+    power *= visible
     fields = dict(shape, kind=kind, color=color, position=position, direction=direction, name=name)
     if blender_version.LEGACY_LIGHT_POWER:
         if kind == "AREA":

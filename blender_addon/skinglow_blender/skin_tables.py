@@ -76,8 +76,8 @@ def signature_of(skin: Skin, lamps: list[Lamp], world: World | None) -> Signatur
 
 
 def lamps_of(skin: Skin, lamps: list[Lamp]) -> list[Lamp]:
-    """The lamps that reach this skin."""
-    return [lamp for lamp in lamps if not lamp.left_out and lamp.lights(skin.name)]
+    """The lamps that reach this skin, as far as it sees them."""
+    return [lamp.seen_by(skin.key) for lamp in lamps if not lamp.left_out and lamp.lights(skin.name)]
 
 
 def world_irradiance(world: World | None) -> tuple[float, float, float]:

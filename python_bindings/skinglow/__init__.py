@@ -33,6 +33,7 @@ from skinglow._core import (
     diffusion_transmittance,
     directional_transmittance,
     exposure_factor,
+    far_side,
     far_side_irradiance,
     irradiance,
     irradiances,
@@ -61,6 +62,7 @@ from skinglow._core import (
     transmittance,
     unnormalised_power_factor,
 )
+from skinglow._occlusion import Occluders, VisibleShare
 from skinglow._thickness import thickness
 
 __all__ = [
@@ -110,6 +112,7 @@ __all__ = [
     "Environment",
     "black_body_colour",
     "exposure_factor",
+    "far_side",
     "far_side_irradiance",
     "irradiance",
     "irradiances",
@@ -128,5 +131,7 @@ __all__ = [
     # POV-Ray
     "povray_scene",
     # Meshes
+    "Occluders",
+    "VisibleShare",
     "thickness",
 ]

@@ -315,6 +315,7 @@ def surface_irradiance(
     tolerance: float = 1e-7,
     threads: int = 0,
 ) -> _Array: ...
+def far_side(vertices: ArrayLike, normals: ArrayLike, depth: ArrayLike) -> tuple[_Array, _Array]: ...
 def far_side_irradiance(
     lights: Sequence[Light],
     vertices: ArrayLike,

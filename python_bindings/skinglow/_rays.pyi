@@ -1,14 +1,17 @@
-"""Types of the compiled module with Embree. Call skinglow.thickness, which loads it with care."""
+"""Types of the compiled module with Embree. skinglow.thickness and skinglow.Occluders load it with care."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from skinglow._core import Light
+
 DEFAULT_RAYS: Final[int]
 DEFAULT_CONE_HALF_ANGLE: Final[float]
 """Radians."""
+DEFAULT_SAMPLES: Final[int]
 
 class ThicknessCancelled(RuntimeError):
     """Raised where progress asks to stop."""
@@ -23,3 +26,18 @@ def thickness(
     threads: int,
     progress: Callable[[float], bool] | None,
 ) -> NDArray[np.float64]: ...
+
+class Occluders:
+    def __init__(self, meshes: Iterable[tuple[ArrayLike, ArrayLike]], origin: ArrayLike | None) -> None: ...
+    def __len__(self) -> int: ...
+    @property
+    def triangles(self) -> int: ...
+    def visible_share(
+        self,
+        lights: Sequence[Light],
+        points: ArrayLike,
+        normals: ArrayLike,
+        samples: int,
+        without: Sequence[int],
+        threads: int,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...

@@ -2,50 +2,14 @@
 
 from __future__ import annotations
 
-import importlib
-import os
-import sys
 from collections.abc import Callable
-from functools import cache
-from types import ModuleType
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from skinglow._rays_loader import load_rays
+
 __all__ = ["thickness"]
-
-
-@cache
-def _rays() -> ModuleType:
-    """Import skinglow._rays so that its Embree answers its calls.
-
-    Blender's full programs load an Embree for everybody. Version 4 has the names of version 3 but not
-    its calling conventions, and the first one loaded takes all calls: rays then miss without a word.
-    RTLD_DEEPBIND makes the module look in its own libraries first.
-    """
-    deep = getattr(os, "RTLD_DEEPBIND", 0)
-    if not deep or _is_sanitized() or _same_embree_is_loaded():
-        return importlib.import_module("skinglow._rays")
-    flags = sys.getdlopenflags()
-    sys.setdlopenflags(os.RTLD_NOW | os.RTLD_LOCAL | deep)
-    try:
-        return importlib.import_module("skinglow._rays")
-    finally:
-        sys.setdlopenflags(flags)
-
-
-def _same_embree_is_loaded() -> bool:
-    """Debian's Blender brings the very library that this module uses, and crashes at its end if it is bound deeply."""
-    try:
-        with open("/proc/self/maps") as maps:
-            return "libembree3" in maps.read()
-    except OSError:
-        return False
-
-
-def _is_sanitized() -> bool:
-    """Sanitizers put functions of their own before everybody's and refuse RTLD_DEEPBIND."""
-    return "libasan" in os.environ.get("LD_PRELOAD", "")
 
 
 def thickness(
@@ -70,7 +34,7 @@ def thickness(
                      that encloses a negative volume is turned over. At least one, unless n is 0.
     unit_mm          length of one unit of the vertices, mm, above 0
     rays             per vertex, 1 to 65536; None: the measured default (docs/accuracy.md)
-    cone_half_angle  between axis and rim, radians, 0 to 1.5; None: pi/6
+    cone_half_angle  between axis and rim, radians, 0 to 1.5; None: pi/4
     min_openness     smallest share of an even sky's light, 0 to 1, that a far side must get for a ray to
                      end there; what gets less (mouth, eye sockets) is dark, and passed as if it were
                      flesh. 0: every way out counts, also into a closed cavity
@@ -83,7 +47,7 @@ def thickness(
     diagonal: thicker than anything in the mesh. Never NaN, infinite or negative.
     Raises ValueError naming the argument, the value and what is allowed.
     """
-    module = _rays()
+    module = load_rays()
     return module.thickness(
         vertices,
         triangles,

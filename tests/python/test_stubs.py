@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 import skinglow._core as core
-from skinglow import _thickness
+from skinglow._rays_loader import load_rays
 
 PACKAGE = Path(__file__).parents[2] / "python_bindings" / "skinglow"
 #: The types of methods that pybind11 makes.
@@ -92,7 +92,12 @@ def test_package_exports_every_name_once() -> None:
     tree = ast.parse((PACKAGE / "__init__.py").read_text(encoding="utf-8"))
     imported = [a.name for node in tree.body if isinstance(node, ast.ImportFrom) for a in node.names]
     (exported,) = definitions(tree)["__all__"]
-    public = {name for name in vars(core) if is_public(name)} | {"__version__", "thickness"}
+    public = {name for name in vars(core) if is_public(name)} | {
+        "__version__",
+        "thickness",
+        "Occluders",
+        "VisibleShare",
+    }
     assert sorted(imported) == sorted(ast.literal_eval(exported.value)) == sorted(public)
 
 
@@ -139,9 +144,14 @@ def test_everything_public_says_what_it_does(name: str) -> None:
 
 
 def test_stub_of_the_rays_is_that_of_the_module() -> None:
-    rays = _thickness._rays()
+    rays = load_rays()
     in_stub = definitions(stub("_rays"))
     assert set(in_stub) == {name for name in vars(rays) if is_public(name)}
     (function,) = in_stub["thickness"]
     assert parameters(function) == parameters(bound_signature(rays.thickness))
     assert issubclass(rays.ThicknessCancelled, RuntimeError)
+    (owner,) = in_stub["Occluders"]
+    methods = definitions(owner)
+    for name in ("__init__", "visible_share"):
+        assert parameters(methods[name][0]) == parameters(bound_signature(getattr(rays.Occluders, name)))
+    assert set(methods) == {"__init__", "__len__", *(name for name in vars(rays.Occluders) if is_public(name))}
