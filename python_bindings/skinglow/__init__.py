@@ -17,6 +17,7 @@ from skinglow._core import (
     Environment,
     Layer,
     Light,
+    LightRig,
     LightTree,
     SkinLutReport,
     SlabResult,
@@ -44,6 +45,7 @@ from skinglow._core import (
     merge_identical,
     object_irradiance_error,
     povray_scene,
+    read_light_rig,
     recolour,
     reference_lut,
     rgb_spectrum,
@@ -118,6 +120,9 @@ __all__ = [
     "light_report",
     "merge_identical",
     "object_irradiance_error",
+    # Light rigs from files
+    "LightRig",
+    "read_light_rig",
     # POV-Ray
     "povray_scene",
     # Meshes
