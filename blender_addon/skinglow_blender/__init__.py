@@ -10,7 +10,19 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any
 
-from . import bundled_core, handlers, light_listing, lut_preview, operators, panel, povray_export, skin, skin_settings
+from . import (
+    batch,
+    bundled_core,
+    handlers,
+    light_listing,
+    lut_preview,
+    operators,
+    panel,
+    povray_export,
+    skin,
+    skin_settings,
+)
+from .batch import BatchResult, BatchStep, Rig
 from .errors import SkinError
 from .live_update import Rebuilt
 from .skin import SkinState
@@ -26,20 +38,25 @@ bl_info = {
 }
 
 __all__ = [
+    "BatchResult",
+    "BatchStep",
     "Rebuilt",
+    "Rig",
     "SkinError",
     "SkinState",
+    "batch_main",
     "export_povray",
     "light_report",
     "lut",
     "make_skin",
     "register",
     "remove_skin",
+    "render_batch",
     "unregister",
     "update",
 ]
 
-_PARTS = (bundled_core, skin_settings, lut_preview, operators, panel, handlers)
+_PARTS = (bundled_core, skin_settings, lut_preview, operators, panel, handlers, batch)
 _registered = False
 
 
@@ -78,3 +95,5 @@ lut = _registering(skin.lut)
 light_report = _registering(light_listing.light_report)
 export_povray = _registering(povray_export.export_povray)
 remove_skin = _registering(skin.remove_skin)
+render_batch = _registering(batch.render_batch)
+batch_main = _registering(batch.main)
