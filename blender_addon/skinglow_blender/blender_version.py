@@ -81,8 +81,8 @@ def animation_curves(owner: bpy.types.ID, path: str | None = None) -> list[bpy.t
 
 
 def literal_path(path: str) -> str:
-    """An output path that Blender takes as it stands: from 5.0 on, braces in it are templates."""
-    return path if VERSION < (5, 0, 0) else path.replace("{", "{{").replace("}", "}}")
+    """An output path that Blender takes as it stands: from 4.5 on, braces in it are templates."""
+    return path if VERSION < (4, 5, 0) else path.replace("{", "{{").replace("}", "}}")
 
 
 def light_receivers(obj: bpy.types.Object) -> bpy.types.Collection | None:
