@@ -70,21 +70,28 @@ def skin_values(obj: bpy.types.Object) -> dict[str, Any]:
     return {name: _plain(getattr(obj.skinglow, name)) for name in SETTING_NAMES}
 
 
-def _files() -> dict[str, str]:
-    """Digests of the files that the open one is made of, by name; those that are not there are none."""
+def _files() -> list[tuple[str, str]]:
+    """Name and digest of the files that the open one is made of; those that are not there are left out."""
     paths = {bpy.data.filepath} if bpy.data.filepath else set()
     paths |= {bpy.path.abspath(library.filepath) for library in bpy.data.libraries}
     for image in bpy.data.images:
         if image.source == "FILE" and image.filepath and image.packed_file is None:
             paths.add(bpy.path.abspath(image.filepath, library=image.library))
-    files = sorted(Path(path) for path in paths)
-    return {path.name: file_digest(path) for path in files if path.is_file()}
+    # By name alone: the machines of a farm may see one folder under several paths.
+    return sorted((path.name, file_digest(path)) for path in map(Path, paths) if path.is_file())
 
 
 def _render_settings(scene: bpy.types.Scene) -> list[Any]:
     owners = [scene.render, scene.render.image_settings, scene.view_settings, scene.display_settings]
-    engine = {"CYCLES": "cycles"}.get(scene.render.engine, "eevee")
-    return owners + [getattr(scene, engine)] * hasattr(scene, engine)
+    engine = engine_settings(scene)
+    return owners if engine is None else [*owners, engine]
+
+
+def engine_settings(scene: bpy.types.Scene) -> Any:  # noqa: ANN401
+    """The scene's settings of its own render engine; None for engines other than Cycles and EEVEE."""
+    engine = scene.render.engine
+    name = "cycles" if engine == "CYCLES" else "eevee" if engine.startswith("BLENDER_EEVEE") else ""
+    return getattr(scene, name, None)
 
 
 def _plain_values(owner: Any) -> dict[str, Any]:  # noqa: ANN401

@@ -19,7 +19,7 @@ from ..live_update import update_scene
 from ..scene_reading import read_skin
 from ..skin import skin_settings_of
 from .frames import parse_frames
-from .inputs import rig_inputs, scene_inputs
+from .inputs import engine_settings, rig_inputs, scene_inputs
 from .manifest import Manifest, file_digest
 from .pictures import PATTERN, Picture, plan_pictures, why_not_kept
 from .rigs import ReadyRig, RigLike, as_rigs, check_lamps, lit_by, make_ready
@@ -114,6 +114,8 @@ def _keep(undo: ExitStack, scene: bpy.types.Scene) -> None:
     """Notes what a batch changes of a scene, so that leaving `undo` brings it back."""
     render = scene.render
     undo.callback(_show_viewport_again, scene)
+    # Markers bind cameras to frames.
+    undo.callback(setattr, scene, "camera", scene.camera)
     undo.callback(scene.frame_set, scene.frame_current, subframe=scene.frame_subframe)
     for name in ("filepath", "use_lock_interface"):
         undo.callback(setattr, render, name, getattr(render, name))
@@ -258,11 +260,11 @@ class _Batch:
 def _made_with(scene: bpy.types.Scene) -> dict[str, Any]:
     render = scene.render
     percent = render.resolution_percentage
-    samples = {"CYCLES": ("cycles", "samples")}.get(render.engine, ("eevee", "taa_render_samples"))
+    engine = engine_settings(scene)
     return {
         "engine": render.engine,
         "resolution": [render.resolution_x * percent // 100, render.resolution_y * percent // 100],
-        "samples": getattr(getattr(scene, samples[0], None), samples[1], None),
+        "samples": getattr(engine, "samples", getattr(engine, "taa_render_samples", None)),
         "camera": scene.camera.name_full if scene.camera else None,
         "blender": bpy.app.version_string,
         "skinglow": core().__version__,

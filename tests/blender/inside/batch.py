@@ -250,22 +250,30 @@ def check_rig_file_is_placed_and_removed(work):
     obj.skinglow.mode = "PHYSICAL"
     before = everything()
     rig = sg.read_light_rig(DATA / "all_kinds.json")
-    sb.render_batch(work / "kinds", 1, [str(DATA / "all_kinds.json")])
+    sb.render_batch(work / "kinds", 1, [str(DATA / "all_kinds.json")], onto=obj)
     (entry,) = manifest_of(work / "kinds")
-    lights = [light for light in rig.lights if light.visible]
-    if bpy.app.version < (4, 0, 0):
-        lights = [with_cosine(light) for light in lights]
-    np.testing.assert_allclose(entry["skins"][0]["weight"], sg.irradiance(lights, (2.0, 3.0, 4.0)), rtol=2e-5)
-    assert np.all(np.array(entry["skins"][0]["weight"]) > 0.0)
+    lights = [as_this_blender_has_it(light) for light in rig.lights if light.visible]
+    each = {light.name: sg.irradiance([light], rig.point) for light in lights}
+    assert all(np.all(weight > 0.0) for weight in each.values()), "all four kinds reach the point"
+    for row in entry["skins"][0]["lamps"]:
+        if row["name"] in each:
+            np.testing.assert_allclose(row["weight"], each.pop(row["name"]), rtol=2e-5, err_msg=row["name"])
+    assert not each
     assert_same(before)
+    assert ("spot_cosine" in "".join(entry["notes"])) == (bpy.app.version >= (4, 0, 0))
 
 
-def with_cosine(light):
-    """The lamp as Blender before 4.0 has it: spots fall off by the cosine to their axis, balls by soft falloff."""
+def as_this_blender_has_it(light):
+    """Whether a spot falls off by the cosine to its axis, and whether a ball can be one, depends on the version."""
     if light.kind not in ("POINT", "SPOT"):
         return light
     names = "kind color position direction power name radius spot_angle spot_blend".split()
-    return sg.Light(**{n: getattr(light, n) for n in names}, spot_cosine=light.kind == "SPOT")
+    has_balls = "use_soft_falloff" in bpy.types.PointLight.bl_rna.properties
+    return sg.Light(
+        **{name: getattr(light, name) for name in names},
+        spot_cosine=light.kind == "SPOT" and bpy.app.version < (4, 0, 0),
+        soft_falloff=light.soft_falloff or not has_balls,
+    )
 
 
 def check_studio_light(work):
@@ -341,6 +349,34 @@ def check_view_layers_and_motion_blur(work):
     assert {skin["view_layer"] for skin in entry["skins"]} == {"ViewLayer", "Second"}
     for skin in entry["skins"]:
         np.testing.assert_allclose(skin["weight"], color_at("warm", 2) / 2.0, rtol=1e-6)
+
+
+def check_another_scene_and_linked_lamps(work):
+    """A scene that is not the window's, whose lamps come from a library: they are hidden and shown as its own are."""
+    key, fill = lamp("Key", color=(1.0, 0.0, 0.0)), lamp("Fill", color=(0.0, 0.0, 1.0))
+    library = work / "lamps.blend"
+    bpy.data.libraries.write(str(library), {key, fill})
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    studio()
+    first = bpy.context.scene
+    with bpy.data.libraries.load(str(library), link=True) as (there, here):
+        here.objects = there.objects
+    other = bpy.data.scenes.new("Other")
+    other.render.engine = "CYCLES"
+    for obj in (*here.objects, bpy.data.objects["Camera"], bpy.data.objects["Patch"]):
+        other.collection.objects.link(obj)
+    other.camera = bpy.data.objects["Camera"]
+    for name in ("resolution_x", "resolution_y", "filter_size"):
+        setattr(other.render, name, getattr(first.render, name))
+    other.cycles.samples, other.cycles.use_denoising, other.cycles.device = 1, False, "CPU"
+    other.render.image_settings.file_format, other.render.image_settings.color_depth = "OPEN_EXR", "32"
+    before = everything()
+    result = sb.render_batch(work / "other", 1, ["Key", "Fill"], scene=other)
+    assert len(result.rendered) == 2, result
+    for name, color in (("Key", (1, 0, 0)), ("Fill", (0, 0, 1))):
+        picture = shown_in(work / f"other/{name}/0001.exr")
+        np.testing.assert_allclose(picture, expected((color, 1.0)), rtol=1e-5, err_msg=name)
+    assert_same(before)
 
 
 def check_names_of_files(work):
