@@ -78,7 +78,14 @@ def _files() -> list[tuple[str, str]]:
         if image.source == "FILE" and image.filepath and image.packed_file is None:
             paths.add(bpy.path.abspath(image.filepath, library=image.library))
     # By name alone: the machines of a farm may see one folder under several paths.
-    return sorted((path.name, file_digest(path)) for path in map(Path, paths) if path.is_file())
+    return sorted((path.name, _digest_if_readable(path)) for path in map(Path, paths) if path.is_file())
+
+
+def _digest_if_readable(path: Path) -> str:
+    try:
+        return file_digest(path)
+    except OSError:  # Blender cannot read it either
+        return ""
 
 
 def _render_settings(scene: bpy.types.Scene) -> list[Any]:

@@ -1,32 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rendering the pictures of a batch, one after another, and leaving the scene as it was."""
 
-import glob
 import os
-import platform
 import time
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import ExitStack
-from datetime import datetime, timezone
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import bpy
 
-from .. import blender_version
-from ..errors import SkinError, core
+from ..errors import SkinError
 from ..live_update import update_scene
 from ..scene_reading import read_skin
 from ..skin import skin_settings_of
 from .frames import parse_frames
-from .inputs import engine_settings, rig_inputs, scene_inputs
-from .manifest import Manifest, file_digest
+from .inputs import rig_inputs, scene_inputs
+from .manifest import Manifest
+from .one_picture import make_picture
 from .pictures import PATTERN, Picture, plan_pictures, why_not_kept
-from .rigs import ReadyRig, RigLike, as_rigs, check_lamps, lit_by, make_ready
-from .shown import Shown, watching
-
-#: A temporary file is there only while a picture is written. One this old is of a worker that died.
-STALE_SECONDS = 3600.0
+from .rigs import ReadyRig, RigLike, as_rigs, lit_by, make_ready
 
 
 class BatchStep(NamedTuple):
@@ -192,7 +185,10 @@ class _Batch:
                 try:
                     if fault:
                         raise SkinError(fault)
-                    self.make(picture, ready, notes, started)
+                    name, inputs = picture.name, self.inputs[picture.rig]
+                    entry = make_picture(self.scene, picture.frame, path, ready)
+                    told = {"file": name, "frame": picture.frame, "rig": picture.rig_name, "notes": notes}
+                    self.manifest.append({**told, **entry, "inputs": inputs})
                     self.rendered.append(path)
                 except (SkinError, ValueError, RuntimeError, OSError) as error:
                     state, reason = "FAILED", " ".join(str(error).split())
@@ -200,52 +196,6 @@ class _Batch:
                 seconds = time.perf_counter() - started
                 self.seconds += seconds
                 self.tell(state, picture, reason, seconds)
-
-    def make(self, picture: Picture, ready: ReadyRig, notes: list[str], started: float) -> None:
-        """Renders one picture beside its place, puts it there when it is whole, and then enters it."""
-        path = self.folder / picture.name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        mine = f"{platform.node()}-{os.getpid()}"
-        partial = path.with_name(f".{path.stem}.{mine}.part{path.suffix}")
-        try:
-            shown = self.render(picture.frame, partial)
-            if shown.faults:
-                raise SkinError("; ".join(dict.fromkeys(shown.faults)))
-            check_lamps(ready, self.scene, shown.lamps)
-            with partial.open("rb+") as file:
-                os.fsync(file.fileno())
-            size, digest = partial.stat().st_size, file_digest(partial)
-            os.replace(partial, path)
-        finally:
-            partial.unlink(missing_ok=True)
-        _clear_stale(path)
-        self.manifest.append(
-            {
-                "file": picture.name,
-                "frame": picture.frame,
-                "rig": picture.rig_name,
-                "bytes": size,
-                "sha256": digest,
-                "rig_file": str(ready.rig.file) if ready.rig.file else None,
-                "notes": notes,
-                **_made_with(self.scene),
-                "seconds": round(time.perf_counter() - started, 3),
-                "time": datetime.now(timezone.utc).isoformat(timespec="seconds"),
-                "host": platform.node(),
-                "blend": bpy.data.filepath,
-                "inputs": self.inputs[picture.rig],
-                "skins": shown.skins,
-            }
-        )
-
-    def render(self, frame: int, partial: Path) -> Shown:
-        self.scene.frame_set(frame)
-        self.scene.render.filepath = blender_version.literal_path(str(partial))
-        with watching(self.scene) as shown:
-            bpy.ops.render.render(write_still=True, scene=self.scene.name)
-        if not partial.is_file() or partial.stat().st_size == 0:
-            raise SkinError("Blender wrote no picture: the render was cancelled or failed (its own output says why)")
-        return shown
 
     def tell(self, state: str, picture: Picture, reason: str, seconds: float) -> None:
         if self.progress is None:
@@ -255,27 +205,3 @@ class _Batch:
         left = self.seconds / made * (self.total - done) if made else None
         path = self.folder / picture.name
         self.progress(BatchStep(state, picture.rig_name, picture.frame, path, reason, done, self.total, seconds, left))
-
-
-def _made_with(scene: bpy.types.Scene) -> dict[str, Any]:
-    render = scene.render
-    percent = render.resolution_percentage
-    engine = engine_settings(scene)
-    return {
-        "engine": render.engine,
-        "resolution": [render.resolution_x * percent // 100, render.resolution_y * percent // 100],
-        "samples": getattr(engine, "samples", getattr(engine, "taa_render_samples", None)),
-        "camera": scene.camera.name_full if scene.camera else None,
-        "blender": bpy.app.version_string,
-        "skinglow": core().__version__,
-    }
-
-
-def _clear_stale(path: Path) -> None:
-    """Removes what workers that died left of this picture."""
-    for leftover in path.parent.glob(f".{glob.escape(path.stem)}.*.part{path.suffix}"):
-        try:
-            if time.time() - leftover.stat().st_mtime > STALE_SECONDS:
-                leftover.unlink()
-        except OSError:
-            continue
