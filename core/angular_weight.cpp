@@ -1,5 +1,6 @@
 #include "angular_weight.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -86,6 +87,39 @@ glm::dvec3 AngularWeight::at(double mu) const {
     const auto i = std::min(static_cast<std::size_t>(place), intervals - 1);
     const double t = place - static_cast<double>(i);
     return table_[i] * (1.0 - t) + table_[i + 1] * t;
+}
+
+glm::dvec3 evaluate(const AngularCubic& cubic, double mu) {
+    const double x = std::clamp(mu, 0.0, 1.0);
+    return cubic[0] + x * (cubic[1] + x * (cubic[2] + x * cubic[3]));
+}
+
+AngularCubic AngularWeight::cubic() const {
+    // Normal equations with the constraint 2 integral of mu cubic dmu = 1 by a Lagrange multiplier. All
+    // integrals are sums over the table, of which w is made.
+    Eigen::Matrix<double, 5, 5> system = Eigen::Matrix<double, 5, 5>::Zero();
+    Eigen::Matrix<double, 5, 3> right = Eigen::Matrix<double, 5, 3>::Zero();
+    for (std::size_t i = 0; i <= intervals; ++i) {
+        const double mu = static_cast<double>(i) / intervals;
+        const std::array<double, 4> power = {1.0, mu, mu * mu, mu * mu * mu};
+        for (int j = 0; j < 4; ++j) {
+            for (int k = 0; k < 4; ++k) {
+                system(j, k) +=
+                    mu * mu * power[static_cast<std::size_t>(j)] * power[static_cast<std::size_t>(k)];
+            }
+            for (int channel = 0; channel < 3; ++channel)
+                right(j, channel) += mu * mu * power[static_cast<std::size_t>(j)] * table_[i][channel];
+        }
+    }
+    for (int j = 0; j < 4; ++j) system(4, j) = system(j, 4) = 2.0 / (j + 2.0);
+    right.row(4).setOnes();
+    const Eigen::Matrix<double, 5, 3> solution = system.fullPivLu().solve(right);
+    AngularCubic cubic{};
+    for (int j = 0; j < 4; ++j) {
+        for (int channel = 0; channel < 3; ++channel)
+            cubic[static_cast<std::size_t>(j)][channel] = solution(j, channel);
+    }
+    return cubic;
 }
 
 }  // namespace skinglow

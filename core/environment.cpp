@@ -13,21 +13,16 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Real orthonormal spherical harmonics up to l = 2 at a unit direction.
-std::array<double, 9> harmonics(const glm::dvec3& d) {
-    static const double band0 = 0.5 * std::sqrt(1 / pi);
-    static const double band1 = std::sqrt(3 / (4 * pi));
-    static const double band2 = 0.5 * std::sqrt(15 / pi);
-    static const double band2_zonal = 0.25 * std::sqrt(5 / pi);
-    return {band0,
-            band1 * d.y,
-            band1 * d.z,
-            band1 * d.x,
-            band2 * d.x * d.y,
-            band2 * d.y * d.z,
-            band2_zonal * (3 * d.z * d.z - 1),
-            band2 * d.x * d.z,
-            0.5 * band2 * (d.x * d.x - d.y * d.y)};
+const double band0 = 0.5 * std::sqrt(1 / pi);
+const double band1 = std::sqrt(3 / (4 * pi));
+const double band2 = 0.5 * std::sqrt(15 / pi);
+const double band2_zonal = 0.25 * std::sqrt(5 / pi);
+/// What the harmonics are of their monomials.
+const std::array<double, 9> scale = {band0, band1,       band1, band1,      band2,
+                                     band2, band2_zonal, band2, 0.5 * band2};
+
+std::array<double, 9> monomials(const glm::dvec3& d) {
+    return {1.0, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3 * d.z * d.z - 1, d.x * d.z, d.x * d.x - d.y * d.y};
 }
 
 /// Integrals over one row of pixels, theta from the zenith, of the parts of the harmonics that depend on it;
@@ -109,14 +104,8 @@ Environment Environment::from_equirectangular(std::span<const glm::dvec3> pixels
         sum[7] += along.cosine * theta.sz;
         sum[8] += along.cosine2 * theta.ss;
     }
-    // The constants of `harmonics`, whose directional parts the sums are.
-    const std::array<double, 9> at_x = harmonics({1, 0, 0});
-    const double band2 = 2 * at_x[8];
-    const double band2_zonal = -at_x[6];
-    const std::array<double, 9> constant = {at_x[0], at_x[3],     at_x[3], at_x[3],    band2,
-                                            band2,   band2_zonal, band2,   0.5 * band2};
     for (std::size_t i = 0; i < 9; ++i) {
-        sum[i] *= constant[i];
+        sum[i] *= scale[i];
         for (int channel = 0; channel < 3; ++channel) {
             if (!std::isfinite(sum[i][channel]))
                 refuse_argument("pixels", "not all finite", "finite radiance");
@@ -131,14 +120,30 @@ glm::dvec3 Environment::direction(double u, double v) {
     return {std::sin(theta) * std::cos(azimuth), std::sin(theta) * std::sin(azimuth), std::cos(theta)};
 }
 
-glm::dvec3 Environment::irradiance(const glm::dvec3& normal, const AngularWeight* angular_weight) const {
+std::array<double, 9> Environment::harmonics(const glm::dvec3& direction) {
+    std::array<double, 9> values = monomials(direction);
+    for (std::size_t i = 0; i < 9; ++i) values[i] *= scale[i];
+    return values;
+}
+
+std::array<glm::dvec3, 9> Environment::irradiance_polynomial(const AngularWeight* angular_weight) const {
     // What the cosine keeps of each band (Ramamoorthi and Hanrahan 2001, Eq. 8).
     const std::array<glm::dvec3, 3> plain = {glm::dvec3(pi), glm::dvec3(2 * pi / 3), glm::dvec3(pi / 4)};
     const std::array<glm::dvec3, 3>& kept =
         angular_weight == nullptr ? plain : angular_weight->band_factors();
-    const std::array<double, 9> basis = harmonics(normal);
-    glm::dvec3 sum = kept[0] * coefficients_[0] * basis[0];
-    for (std::size_t i = 1; i < 9; ++i) sum += kept[i < 4 ? 1 : 2] * coefficients_[i] * basis[i];
+    std::array<glm::dvec3, 9> polynomial{};
+    for (std::size_t i = 0; i < 9; ++i) {
+        const std::size_t band = i == 0 ? 0 : (i < 4 ? 1 : 2);
+        polynomial[i] = kept[band] * coefficients_[i] * scale[i];
+    }
+    return polynomial;
+}
+
+glm::dvec3 Environment::irradiance(const glm::dvec3& normal, const AngularWeight* angular_weight) const {
+    const std::array<glm::dvec3, 9> polynomial = irradiance_polynomial(angular_weight);
+    const std::array<double, 9> at = monomials(normal);
+    glm::dvec3 sum = polynomial[0];
+    for (std::size_t i = 1; i < 9; ++i) sum += polynomial[i] * at[i];
     // Nine coefficients of a small bright sun swing below 0 on the side away from it.
     return {std::max(sum.r, 0.0), std::max(sum.g, 0.0), std::max(sum.b, 0.0)};
 }

@@ -40,6 +40,14 @@ class Environment {
     /// no normal.
     glm::dvec3 mean_irradiance() const;
 
+    /// `irradiance` before it is held at 0, as coefficients of 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2 of
+    /// the normal.
+    std::array<glm::dvec3, 9> irradiance_polynomial(const AngularWeight* angular_weight = nullptr) const;
+
+    /// The nine orthonormal functions at a unit direction. A beam of irradiance E (on a surface that faces
+    /// it) from there has the coefficients E times these.
+    static std::array<double, 9> harmonics(const glm::dvec3& direction);
+
     const std::array<glm::dvec3, 9>& coefficients() const { return coefficients_; }
 
   private:

@@ -155,14 +155,62 @@ IrradianceRange irradiance_range(const PreparedLight& light, const Box& box) {
     return range;
 }
 
-glm::dvec3 object_irradiance_error(std::span<const Light> lights, const glm::dvec3& point, const Box& box) {
+NormalCone normal_cone(std::span<const glm::dvec3> normals) {
+    glm::dvec3 mean(0.0);
+    for (const glm::dvec3& normal : normals) {
+        require_finite("normals", normal);
+        if (normal != glm::dvec3(0.0)) mean += unit(normal);
+    }
+    if (!(length_of(mean) > 1e-6 * static_cast<double>(normals.size()))) return {};
+    NormalCone cone{unit(mean), 0.0};
+    for (const glm::dvec3& normal : normals) {
+        if (normal != glm::dvec3(0.0))
+            cone.half_angle = std::max(cone.half_angle, angle_between(cone.axis, unit(normal)));
+    }
+    return cone;
+}
+
+namespace {
+
+/// Smallest and largest share of its facing irradiance that a lamp gives to any normal of the cone, anywhere
+/// in the box.
+IrradianceRange cosine_range(const PreparedLight& light, const Box& box, const NormalCone& facing) {
+    const glm::dvec3 middle = box.middle();
+    double swing = facing.half_angle + rounding;
+    double radius = 0;  // angular, of the lamp seen from anywhere in the box
+    if (light.kind() == LightKind::sun) {
+        radius = std::asin(std::min(1.0, light.sin_sun_radius()));
+    } else {
+        const double extent =
+            light.area() ? light.area_scale() * std::hypot(light.area()->half_x(), light.area()->half_y())
+                         : light.radius();
+        const double nearest = box.nearest(light.position());
+        if (nearest <= extent || nearest <= min_light_distance) return {0.0, 1.0};
+        swing += half_angle(light.distance(middle), box.radius());
+        radius = std::asin(extent / nearest);
+    }
+    const double middle_angle = angle_between(facing.axis, light.to_light(middle));
+    const double least = std::max(0.0, middle_angle - swing - radius);
+    const double largest = std::min(pi, middle_angle + swing + radius);
+    // A facing receiver gets at least cos(radius) of what one without a cosine would.
+    const double most = std::max(0.0, std::cos(least)) / std::max(std::cos(radius), rounding);
+    return {std::max(0.0, std::cos(largest)), std::min(1.0, most)};
+}
+
+glm::dvec3 error_within(std::span<const Light> lights, const glm::dvec3& point, const Box& box,
+                        const NormalCone* facing) {
     validate(box);
     const glm::dvec3 here = object_irradiance(lights, point);
     CompensatedSumRgb least;
     CompensatedSumRgb most;
     for (const Light& light : lights) {
         if (!is_on(light)) continue;
-        const IrradianceRange range = irradiance_range(PreparedLight(light), box);
+        const PreparedLight prepared(light);
+        IrradianceRange range = irradiance_range(prepared, box);
+        if (facing != nullptr) {
+            const IrradianceRange share = cosine_range(prepared, box, *facing);
+            range = {range.least * share.least * (1 - rounding), range.most * share.most};
+        }
         const double first = light.power * range.least;
         const double second = light.power * range.most;
         least.add(light.color * std::min(first, second));  // negative power turns the range over
@@ -170,6 +218,17 @@ glm::dvec3 object_irradiance_error(std::span<const Light> lights, const glm::dve
     }
     const glm::dvec3 error = glm::max(glm::max(most.total() - here, here - least.total()), glm::dvec3(0.0));
     return require_finite("bound of the object weight's error", error);
+}
+
+}  // namespace
+
+glm::dvec3 object_irradiance_error(std::span<const Light> lights, const glm::dvec3& point, const Box& box) {
+    return error_within(lights, point, box, nullptr);
+}
+
+glm::dvec3 object_irradiance_error(std::span<const Light> lights, const glm::dvec3& point, const Box& box,
+                                   const NormalCone& facing) {
+    return error_within(lights, point, box, &facing);
 }
 
 }  // namespace skinglow

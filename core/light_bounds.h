@@ -47,11 +47,28 @@ double least_angle(const glm::dvec3& axis, const glm::dvec3& middle, double radi
 /// The largest; pi where the ball holds the origin.
 double largest_angle(const glm::dvec3& axis, const glm::dvec3& middle, double radius);
 
+/// A cone of directions: all within `half_angle` of `axis`.
+struct NormalCone {
+    glm::dvec3 axis{0.0, 0.0, 1.0};         ///< unit
+    double half_angle = 3.141592653589793;  ///< radians, 0 to pi (every direction)
+};
+
+/// The cone about the mean of normals (any length, those of 0 left out) that holds them all; every direction
+/// where they cancel out or there are none. Throws std::invalid_argument on a normal that is not finite.
+NormalCone normal_cone(std::span<const glm::dvec3> normals);
+
 /// How far the object weight taken at `point` can be off anywhere in the box, each channel: an upper bound of
 /// |object_irradiance(lights, p) - object_irradiance(lights, point)| over the points p of the box. It tells
 /// how much the distance and the cones vary over the object; the receiver's cosine, which an object weight
 /// leaves out, is not in it.
 /// @return W/m^2, linear Rec.709. Throws std::invalid_argument on bad input.
 glm::dvec3 object_irradiance_error(std::span<const Light> lights, const glm::dvec3& point, const Box& box);
+
+/// The same with the receiver's cosine: an upper bound of |irradiance(lights, p, n) -
+/// object_irradiance(lights, point)| over the points p of the box and the normals n of the cone. This is what
+/// one weight for the whole object costs against weights at each place. @param facing  normals of the far
+/// side
+glm::dvec3 object_irradiance_error(std::span<const Light> lights, const glm::dvec3& point, const Box& box,
+                                   const NormalCone& facing);
 
 }  // namespace skinglow

@@ -73,13 +73,19 @@ Returns a dict: kept (indices, ascending), dropped (dicts of lights, reason, bou
         "go.");
     m.def(
         "object_irradiance_error",
-        [](const std::vector<Light>& lights, py::handle point, py::handle box_min, py::handle box_max) {
-            return numpy::from_vec3(
-                object_irradiance_error(lights, numpy::to_vec3(point, "point"), to_box(box_min, box_max)));
+        [](const std::vector<Light>& lights, py::handle point, py::handle box_min, py::handle box_max,
+           const std::optional<std::pair<py::object, double>>& facing) {
+            const glm::dvec3 place = numpy::to_vec3(point, "point");
+            const Box box = to_box(box_min, box_max);
+            if (!facing) return numpy::from_vec3(object_irradiance_error(lights, place, box));
+            const NormalCone cone{unit(numpy::to_vec3(facing->first, "axis of facing")), facing->second};
+            return numpy::from_vec3(object_irradiance_error(lights, place, box, cone));
         },
-        "lights"_a, "point"_a, "box_min"_a, "box_max"_a,
+        "lights"_a, "point"_a, "box_min"_a, "box_max"_a, "facing"_a = py::none(),
         R"(Upper bound (3,), W/m^2, of how far irradiance(lights, p) is from irradiance(lights, point) for p in the box:
-what one weight for the whole object may be off. The receiver's cosine, which it leaves out anyway, is not in it.)");
+what one weight for the whole object may be off.
+facing  None: the receiver's cosine is left out; or (axis (3,), half angle in radians), the cone of the far side's normals,
+        as normal_cone gives it: the bound then holds for irradiance with its cosine on each of them.)");
     m.def("light_report", &report_as_dicts, "lights"_a, "point"_a, "normal"_a = py::none(),
           "occluded"_a = std::vector<bool>{}, "kept"_a = py::none(),
           R"(What each light does for a point, in mode `physical`: a list of dicts, one per light.

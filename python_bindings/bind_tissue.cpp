@@ -8,6 +8,7 @@
 #include "bind_incidence.h"
 #include "diffusion_approximation.h"
 #include "numpy_conversion.h"
+#include "skin_angular_weight.h"
 #include "skin_lut.h"
 #include "skin_transmittance.h"
 #include "spectrum.h"
@@ -204,6 +205,15 @@ void bind_spectrum(py::module_& m);
 
 void bind_tissue(py::module_& m) {
     bind_tissue_class(m);
+    m.def(
+        "skin_angular_weight",
+        [](const DescribedTissue& tissue, double thickness_mm, int streams) {
+            return skin_angular_weight(tissue.tissue, thickness_mm, streams);
+        },
+        "tissue"_a, "thickness_mm"_a = 4.0, "streams"_a = 16,
+        R"(How the light on a skin's far side enters by its angle, solved: an AngularWeight.
+
+It hardly depends on the thickness (mm, above 0); one typical of the object will do. streams as for slab.)");
     m.def("transmittance", &transmittance_of_arrays, "tissue"_a, "thickness_mm"_a, "wavelength_nm"_a,
           "incidence"_a = "diffuse", "streams"_a = 16,
           R"(Total transmittance of skin in air, shape (n_thickness, n_wavelength), in [0, 1].

@@ -7,6 +7,7 @@ void bind_tissue(pybind11::module_& m);
 void bind_irradiance(pybind11::module_& m);
 void bind_rig(pybind11::module_& m);
 void bind_povray(pybind11::module_& m);
+void bind_surface_lighting(pybind11::module_& m);
 
 PYBIND11_MODULE(_core, m) {
     m.doc() =
@@ -26,6 +27,7 @@ PYBIND11_MODULE(_core, m) {
 #ifdef SKINGLOW_BIND_RIG
     bind_rig(m);
 #endif
+    bind_surface_lighting(m);
 #ifdef SKINGLOW_BIND_POVRAY
     bind_povray(m);
 #endif

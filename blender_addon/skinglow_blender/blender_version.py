@@ -40,6 +40,29 @@ def ensure_shader_tree(material: bpy.types.Material) -> bpy.types.NodeTree:
     return material.node_tree
 
 
+#: Cycles finds a material's emission by the paths that happen upon it alone.
+NO_EMISSION_SAMPLING = "NONE" if VERSION >= (3, 5, 0) else 0
+
+
+def emission_sampling(material: bpy.types.Material) -> str | int | None:
+    """How Cycles samples a material's emission (an option of four from 3.5, on or off before); None without Cycles."""
+    cycles = getattr(material, "cycles", None)
+    if cycles is None:
+        return None
+    return cycles.emission_sampling if hasattr(cycles, "emission_sampling") else int(cycles.sample_as_light)
+
+
+def set_emission_sampling(material: bpy.types.Material, value: str | int) -> None:
+    """Sets what `emission_sampling` tells."""
+    cycles = getattr(material, "cycles", None)
+    if cycles is None:
+        return
+    if hasattr(cycles, "emission_sampling"):
+        cycles.emission_sampling = value
+    else:
+        cycles.sample_as_light = bool(value)
+
+
 def socket_named(sockets: bpy.types.bpy_prop_collection, *names: str) -> bpy.types.NodeSocket | None:
     """The first socket that goes by one of these names: the Principled BSDF's were renamed in 4.0."""
     for name in names:

@@ -4,12 +4,16 @@
 from typing import NamedTuple
 
 import bpy
+import numpy as np
 
 from .errors import SkinError
 from .lut_image import Atlas, ensure_images, has_room
+from .lut_layout import layout_of, plain_row, surface_row
 from .scene_lights import FIELDS
 from .scene_reading import ROW_PROPERTY, SceneReading, Skin, read_scene
-from .skin_tables import compute_table, signature_of
+from .skin_group import build_plain
+from .skin_tables import Signature, Table, compute_table, signature_of
+from .surface_group import build_surface
 from .texel_mapping import texels_per_mm
 
 
@@ -18,8 +22,8 @@ class Rebuilt(NamedTuple):
 
     skin: str  #: name of the object
     mode: str  #: 'VIEWPORT' or 'RENDER': whose lamps it was computed for
-    before: tuple | None  #: signature of what was shown before; None: nothing
-    after: tuple  #: signature of what is shown now
+    before: Signature | None  #: signature of what was shown before; None: nothing
+    after: Signature  #: signature of what is shown now
 
     @property
     def why(self) -> str:
@@ -83,30 +87,83 @@ def _update_group(
     faults: dict[str, str],
 ) -> list[Rebuilt]:
     _separate_rows(group, members)
-    _make_room(group, members)
+    _make_room(group, max(skin.base[1] for _obj, skin in members), 1 + max(o.skinglow.row for o, _skin in members))
     atlas = _atlas(group, mode)
+    before = {key: (signature, atlas.rows.get(key)) for key, signature in atlas.signatures.items()}
+    _compute(atlas, members, reading, faults)
+    if _fit_layout(group, atlas):
+        atlas = _atlas(group, mode)
+        _compute(atlas, members, reading, faults)
     rebuilt = []
     for obj, skin in members:
-        signature = signature_of(skin, reading.lamps)
-        row = obj.skinglow.row
-        before = atlas.signatures.get(skin.key)
-        try:
-            if signature != before or atlas.rows.get(skin.key) != row:
-                table = compute_table(skin, reading.lamps)
-                atlas.put(row, table.colors)
-                atlas.signatures[skin.key] = signature
-                atlas.rows[skin.key] = row
-                atlas.sizes[skin.key] = len(table.colors)
-                atlas.texel_mappings[skin.key] = table.texel_mapping
-                rebuilt.append(Rebuilt(skin.name, mode, before, signature))
-            _set_row_property(obj, skin, atlas)
-        except (SkinError, ValueError) as error:
-            faults[skin.key] = str(error)
-    if rebuilt:
+        table = atlas.tables.get(skin.key)
+        if table is None:
+            continue
+        row, signature = obj.skinglow.row, atlas.signatures[skin.key]
+        if not atlas.holds(skin.key, row, table):
+            atlas.put(skin.key, row, table, _texels(table, skin, atlas))
+            changed_from = before.get(skin.key, (None, None))
+            if changed_from != (signature, row):
+                rebuilt.append(Rebuilt(skin.name, mode, changed_from[0], signature))
+        _set_row_property(obj, skin, atlas)
+    if atlas.is_dirty:
         atlas.write(group)
     if mode == "RENDER" or not STATE.rendering:
         atlas.show(group)
     return rebuilt
+
+
+def _compute(
+    atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]], reading: SceneReading, faults: dict[str, str]
+) -> None:
+    """Computes the tables whose signature changed; a skin with a fault keeps its last one."""
+    room = atlas.layout if STATE.rendering else None
+    for _obj, skin in members:
+        signature = signature_of(skin, reading.lamps)
+        if atlas.signatures.get(skin.key) == signature:
+            continue
+        try:
+            atlas.tables[skin.key] = compute_table(skin, reading.lamps, room)
+            atlas.signatures[skin.key] = signature
+        except (SkinError, ValueError) as error:
+            faults[skin.key] = str(error)
+
+
+def _texels(table: Table, skin: Skin, atlas: Atlas) -> np.ndarray:
+    """A skin's row of the image."""
+    if atlas.layout is None:
+        return plain_row(table.colors, atlas.pixels.shape[1])
+    weight = table.weight if table.weight is not None else (1.0, 1.0, 1.0)
+    depth_per_mm = skin.surface.depth_per_mm if skin.surface is not None else 0.0
+    return surface_row(table.columns, weight, table.lighting, depth_per_mm, atlas.layout)
+
+
+def _fit_layout(group: bpy.types.NodeTree, atlas: Atlas) -> bool:
+    """Gives a group the nodes that its skins' light needs; whether that made the atlas worthless."""
+    wanted = atlas.layout if _has_surface_weights(group) else None
+    entries = max((len(table.colors) for table in atlas.tables.values()), default=1)
+    for table in atlas.tables.values():
+        if table.lighting is not None:
+            needed = layout_of(table.lighting, entries)
+            wanted = needed if wanted is None else wanted.joined(needed)
+    if wanted is not None and wanted.entries < entries:
+        wanted = wanted._replace(entries=entries)
+    if wanted == atlas.layout or group.library is not None or (wanted is None and STATE.rendering):
+        return False
+    if STATE.rendering:
+        raise SkinError("its nodes are too few for these lamps, and none can be made while rendering; update before")
+    if wanted is None:
+        build_plain(group)
+        return True
+    ensure_images(group, wanted.width, atlas.pixels.shape[0])
+    build_surface(group, wanted)
+    return True
+
+
+def _has_surface_weights(group: bpy.types.NodeTree) -> bool:
+    """Whether a skin of the file may ask for light at each pixel: nodes for that are not taken away meanwhile."""
+    skins = (o.skinglow for o in bpy.data.objects if o.type == "MESH")
+    return any(s.group == group and s.enabled and s.mode == "PHYSICAL" and s.weights != "OBJECT" for s in skins)
 
 
 def _atlas(group: bpy.types.NodeTree, mode: str) -> Atlas:
@@ -137,9 +194,7 @@ def _other_owner(group: bpy.types.NodeTree, row: int, me: tuple[str, str | None]
     return other is not None and other.skinglow.group == group and other.skinglow.row == row
 
 
-def _make_room(group: bpy.types.NodeTree, members: list[tuple[bpy.types.Object, Skin]]) -> None:
-    width = max(skin.base[1] for _obj, skin in members)
-    rows = 1 + max(obj.skinglow.row for obj, _skin in members)
+def _make_room(group: bpy.types.NodeTree, width: int, rows: int) -> None:
     if has_room(group, width, rows):
         return
     if STATE.rendering:
@@ -150,24 +205,32 @@ def _make_room(group: bpy.types.NodeTree, members: list[tuple[bpy.types.Object, 
 def _set_row_property(obj: bpy.types.Object, skin: Skin, atlas: Atlas) -> None:
     """Tells the object's material where its row is and how thickness finds its texel."""
     height, width = atlas.pixels.shape[:2]
-    scale = texels_per_mm(obj, skin, atlas.texel_mappings[skin.key])
+    scale = texels_per_mm(obj, skin, atlas.tables[skin.key].texel_mapping)
     wanted = (scale, 1.0 / width, (obj.skinglow.row + 0.5) / height, skin.strength)
     if tuple(obj.get(ROW_PROPERTY, ())) != wanted:
         obj[ROW_PROPERTY] = wanted
         obj.update_tag(refresh={"OBJECT"})
 
 
-def why_changed(before: tuple | None, after: tuple) -> str:
+#: Fields of a signature in words.
+REASONS = {
+    "base": "base lookup",
+    "blood_weight": "blood weight",
+    "attenuation": "attenuation",
+    "point": "reference point",
+    "weights": "weights",
+    "surface": "its place or shape",
+}
+
+
+def why_changed(before: Signature | None, after: Signature) -> str:
     """The difference of two signatures in words."""
     if before is None:
         return "first computed"
-    if before[0] != after[0]:
-        return f"mode {before[0].lower()} to {after[0].lower()}"
-    if len(after) < 3 or before[1] != after[1]:
-        return "base lookup"
-    names = ("blood weight", "attenuation", "reference point") if after[0] == "PAPER" else ("reference point",)
-    reasons = [name for name, a, b in zip(names, before[2:], after[2:], strict=False) if a != b]
-    old, new = ({light[0]: light for light in signature[-1]} for signature in (before, after))
+    if before.mode != after.mode:
+        return f"mode {before.mode.lower()} to {after.mode.lower()}"
+    reasons = [words for name, words in REASONS.items() if getattr(before, name) != getattr(after, name)]
+    old, new = ({light[0]: light for light in signature.lights} for signature in (before, after))
     reasons += [f"light '{name}' came" for name in new if name not in old]
     reasons += [f"light '{name}' went" for name in old if name not in new]
     for name in new:

@@ -6,14 +6,19 @@ of a pair is, and is then put in its place. Viewport and render see different li
 and coming back from a render shows the viewport's again without computing anything.
 """
 
+from typing import Any
+
 import bpy
 import numpy as np
 
 from .errors import SkinError
+from .lut_layout import LAYOUT_PROPERTY, Layout
 
 FIRST_ROWS = 16
-#: The image nodes: of the texel below a thickness and of the one above.
+#: The image nodes of a group for plain rows: of the texel below a thickness and of the one above.
 NODE_NAMES = ("LUT below", "LUT above")
+#: In a group with surface weights: a node that holds the group which reads a texel, and the image node in there.
+TEXEL_NODE, SURFACE_NODE = "LUT texel", "LUT"
 #: On the node groups that are ours.
 GROUP_PROPERTY = "skinglow"
 SLOTS = ("viewport_a", "viewport_b", "render_a", "render_b")
@@ -21,7 +26,23 @@ SLOTS = ("viewport_a", "viewport_b", "render_a", "render_b")
 
 def is_skin_group(tree: bpy.types.NodeTree | None) -> bool:
     """Whether a node tree is one of ours."""
-    return tree is not None and GROUP_PROPERTY in tree and all(name in tree.nodes for name in NODE_NAMES)
+    return tree is not None and GROUP_PROPERTY in tree and bool(image_nodes(tree))
+
+
+def image_nodes(group: bpy.types.NodeTree) -> list[bpy.types.Node]:
+    """The nodes through which a group reads its image; none where they are gone."""
+    texel = group.nodes.get(TEXEL_NODE)
+    if texel is not None:
+        node = texel.node_tree.nodes.get(SURFACE_NODE) if texel.node_tree is not None else None
+        return [node] if node is not None else []
+    nodes = [group.nodes.get(name) for name in NODE_NAMES]
+    return nodes if None not in nodes else []
+
+
+def group_layout(group: bpy.types.NodeTree) -> Layout | None:
+    """The layout that a skin group's nodes read; None for plain rows."""
+    stored = group.get(LAYOUT_PROPERTY)
+    return Layout(stored[0], stored[1], stored[2], bool(stored[3])) if stored is not None else None
 
 
 def skin_groups() -> list[bpy.types.NodeTree]:
@@ -31,13 +52,13 @@ def skin_groups() -> list[bpy.types.NodeTree]:
 
 def shown_image(group: bpy.types.NodeTree) -> bpy.types.Image | None:
     """The image that a group's nodes show."""
-    return group.nodes[NODE_NAMES[0]].image
+    nodes = image_nodes(group)
+    return nodes[0].image if nodes else None
 
 
 def show_image(group: bpy.types.NodeTree, image: bpy.types.Image) -> None:
     """Has a group's nodes show an image."""
-    for name in NODE_NAMES:
-        node = group.nodes[name]
+    for node in image_nodes(group):
         # An equal value would be tagged all the same, and each tag restarts the viewport.
         if node.image != image:
             node.image = image
@@ -114,26 +135,32 @@ class Atlas:
         self.mode = mode
         pair = image_pair(group, mode)
         width, height = pair[0].size
+        self.layout = group_layout(group)
         self.pixels = np.zeros((height, width, 4), np.float32)
         self.pixels[:, :, 3] = 1.0
         self.signatures: dict[str, tuple] = {}
         self.rows: dict[str, int] = {}
-        self.sizes: dict[str, int] = {}
-        self.texel_mappings: dict[str, tuple[float, float]] = {}
+        self._written: dict[str, object] = {}
+        self.is_dirty = False
+        self.tables: dict[str, Any] = {}  #: skin_tables.Table by skin
         #: Which of the pair is up to date, and whether a renderer may have read it since it was written.
         self.front = 1 if shown_image(group) == pair[1] else 0
         self.was_shown = True
 
     def fits(self, group: bpy.types.NodeTree) -> bool:
-        """Whether the images still have the size that this was made for."""
+        """Whether the images still have the size and the layout that this was made for."""
         width, height = image_pair(group, self.mode)[0].size
-        return self.pixels.shape[:2] == (height, width)
+        return self.pixels.shape[:2] == (height, width) and self.layout == group_layout(group)
 
-    def put(self, row: int, colors: np.ndarray) -> None:
-        """Takes a table into its row; the last entry goes on to the image's edge."""
-        size = len(colors)
-        self.pixels[row, :size, :3] = colors
-        self.pixels[row, size:, :3] = colors[-1]
+    def holds(self, key: str, row: int, table: object) -> bool:
+        """Whether a skin's row is this very table."""
+        return self.rows.get(key) == row and self._written.get(key) is table
+
+    def put(self, key: str, row: int, table: object, texels: np.ndarray) -> None:
+        """Takes the texels (n, 4) of a skin's table into its row."""
+        self.pixels[row, : len(texels)] = texels
+        self.rows[key], self._written[key] = row, table
+        self.is_dirty = True
 
     def write(self, group: bpy.types.NodeTree) -> None:
         """Brings the rows into the image that no renderer has read."""
@@ -142,6 +169,7 @@ class Atlas:
             self.was_shown = False
         image = image_pair(group, self.mode)[self.front]
         image.pixels.foreach_set(self.pixels.ravel())
+        self.is_dirty = False
         if bpy.app.background:
             # There, Blender 3.4 keeps the texture that EEVEE made of the pixels before.
             image.gl_free()
@@ -152,9 +180,9 @@ class Atlas:
         self.was_shown = True
 
 
-def read_row(image: bpy.types.Image, row: int, size: int) -> np.ndarray:
-    """The first `size` colours of a row, (size, 3) float32, as they are in the image."""
+def read_row(image: bpy.types.Image, row: int) -> np.ndarray:
+    """A row's texels, (width, 4) float32, as they are in the image."""
     width, height = image.size
     pixels = np.empty(width * height * 4, np.float32)
     image.pixels.foreach_get(pixels)
-    return pixels.reshape(height, width, 4)[row, :size, :3].copy()
+    return pixels.reshape(height, width, 4)[row].copy()

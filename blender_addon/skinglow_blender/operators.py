@@ -120,10 +120,9 @@ class SKINGLOW_OT_bake(_SkinOperator, bpy.types.Operator):  # noqa: N801
         def bake() -> str:
             manager.progress_begin(0.0, 100.0)
             try:
-                thickness_attribute.store(
-                    context.object,
-                    thickness_attribute.measure(thickness_attribute.read_geometry(context.object, context.scene), show),
-                )
+                geometry = thickness_attribute.read_geometry(context.object, context.scene)
+                measured = thickness_attribute.measure(geometry, show)
+                thickness_attribute.store(context.object, measured, geometry.unit_mm)
             finally:
                 manager.progress_end()
             return f"{context.object.name}: {len(context.object.data.vertices)} vertices measured"

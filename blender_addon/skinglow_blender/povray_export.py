@@ -13,7 +13,8 @@ from . import blender_version
 from .errors import SkinError, core
 from .scene_lights import make_light
 from .scene_reading import SceneReading, Skin, read_scene
-from .skin_material import THICKNESS_ATTRIBUTE, skin_node
+from .skin_group import THICKNESS_ATTRIBUTE
+from .skin_material import skin_node
 from .skin_tables import base_lut, compute_table, lamps_of
 from .texel_mapping import texels_per_mm
 

@@ -1,14 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One walk through an evaluated scene: which lamps shine in it, and which skins it shows where."""
 
+from math import pi
 from typing import NamedTuple
 
 import bpy
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 
 from .scene_lights import Lamp, read_lamp
 from .skin_settings import TISSUE_SLIDERS, as_typed
 
+MM_PER_METRE = 1000.0
+#: Mesh properties, of when its thickness was measured: edge of the cube that its unit cube filled, scene units;
+#: millimetres in a scene unit; the cone that holds its normals, in its own space: axis, half angle in radians.
+MEASURED_SIZE = "skinglow_world_size"
+MEASURED_UNIT = "skinglow_unit_mm"
+MEASURED_CONE = "skinglow_normal_cone"
 #: A skin object's custom property that its node group reads: texels per mm, texel width, row, strength.
 ROW_PROPERTY = "skinglow_lut"
 
@@ -19,6 +26,7 @@ class Skin(NamedTuple):
     name: str  #: of the object
     key: str  #: name with library: unique in the file
     mode: str
+    weights: str  #: 'OBJECT', 'SURFACE' or 'AUTO'; always 'OBJECT' where the mode is not physical
     live: bool
     strength: float
     base: tuple  #: what the base lookup is made from
@@ -26,6 +34,16 @@ class Skin(NamedTuple):
     attenuation: tuple[float, float, float]
     point: tuple[float, float, float]  #: where distances are measured, world
     world_size: float  #: edge of the cube that a unit cube of the object fills in the world, scene units
+    surface: "SurfaceBounds | None"  #: what weights on the surface ask for besides
+
+
+class SurfaceBounds(NamedTuple):
+    """Where a skin's surface is and where its far side faces, in the world."""
+
+    least: tuple[float, float, float]
+    most: tuple[float, float, float]
+    facing: tuple[tuple[float, float, float], float]  #: cone of the far side's normals: axis, half angle
+    depth_per_mm: float  #: scene units for a millimetre of the thickness attribute
 
 
 class SceneReading(NamedTuple):
@@ -72,18 +90,46 @@ def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
 def read_skin(obj: bpy.types.Object, matrix: Matrix) -> Skin:
     """Reads the settings of an evaluated skin object (so that drivers and keyframes count) at that world matrix."""
     settings = obj.skinglow
+    weights = settings.weights if settings.mode == "PHYSICAL" else "OBJECT"
+    world_size = abs(matrix.to_3x3().determinant()) ** (1.0 / 3.0)
     return Skin(
         name=obj.name,
         key=obj.original.name_full,
         mode=settings.mode,
+        weights=weights,
         live=settings.live,
         strength=as_typed(settings.strength),
         base=_base_key(settings),
         blood_weight=_triple(settings.blood_weight),
         attenuation=_triple(settings.attenuation),
         point=_reference_point(obj, matrix),
-        world_size=abs(matrix.to_3x3().determinant()) ** (1.0 / 3.0),
+        world_size=world_size,
+        surface=None if weights == "OBJECT" else _surface_bounds(obj, matrix, world_size),
     )
+
+
+def _surface_bounds(obj: bpy.types.Object, matrix: Matrix, world_size: float) -> SurfaceBounds:
+    corners = [matrix @ Vector(corner) for corner in obj.bound_box]
+    mesh = obj.original.data
+    # Modifiers bend the surface, uneven scales the cone.
+    cone = mesh.get(MEASURED_CONE)
+    scales = [column.to_3d().length for column in matrix.col[:3]]
+    if cone is None or len(obj.modifiers) or max(scales) - min(scales) > 1e-4 * max(scales):
+        facing = ((0.0, 0.0, 1.0), pi)
+    else:
+        facing = (tuple(-(matrix.to_3x3() @ Vector(cone[:3])).normalized()), cone[3])
+    return SurfaceBounds(
+        least=tuple(map(min, *corners)),
+        most=tuple(map(max, *corners)),
+        facing=facing,
+        depth_per_mm=grown(mesh, world_size) / mesh.get(MEASURED_UNIT, MM_PER_METRE),
+    )
+
+
+def grown(mesh: bpy.types.Mesh, world_size: float) -> float:
+    """How much larger, and so thicker, a mesh has become by its object's scale since it was measured."""
+    measured = mesh.get(MEASURED_SIZE, world_size)
+    return world_size / measured if measured > 0.0 else 1.0
 
 
 def _base_key(settings: bpy.types.PropertyGroup) -> tuple:

@@ -10,10 +10,13 @@ import numpy as np
 from . import thickness_attribute
 from .errors import SkinError
 from .live_update import STATE, Rebuilt, update_scene
-from .lut_image import image_pair, read_row, remove_images, shown_image
+from .lut_image import group_layout, image_pair, read_row, remove_images, shown_image
+from .lut_layout import shown_colors
 from .scene_reading import ROW_PROPERTY, read_skin
+from .skin_group import clear
 from .skin_material import add_to_materials, remove_from_material
 from .skin_settings import SETTING_NAMES, apply_settings
+from .skin_tables import OBJECT_WEIGHT, WeightsChoice
 
 
 class SkinState(NamedTuple):
@@ -21,6 +24,8 @@ class SkinState(NamedTuple):
 
     name: str  #: of the object
     mode: str  #: 'EXISTING', 'PAPER' or 'PHYSICAL'
+    weights: str  #: 'OBJECT' or 'SURFACE': what is shown, also where the setting is 'AUTO'
+    weights_bound: float | None  #: share of its largest channel by which the object's weight may be off on the surface
     point: tuple[float, float, float]  #: where distances are measured, world, scene units
     size: int  #: entries of its lookup
     max_thickness_mm: float  #: thickness at the last entry
@@ -49,7 +54,7 @@ def make_skin(obj: bpy.types.Object, thickness: Sequence[float] | None = None, *
     if thickness is None:
         thickness_attribute.ensure_measured(obj, scene)
     else:
-        thickness_attribute.store(obj, thickness)
+        thickness_attribute.store(obj, thickness, thickness_attribute.unit_mm(obj, scene))
 
     group = add_to_materials(obj, obj.skinglow.group)
     if obj.skinglow.group != group:
@@ -76,9 +81,12 @@ def state_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SkinState
     if len(values):
         attribute.data.foreach_get("value", values)
     skin = read_skin(evaluated, evaluated.matrix_world)
+    choice = choice_of(obj, depsgraph)
     return SkinState(
         name=obj.name,
         mode=skin.mode,
+        weights=choice.weights,
+        weights_bound=choice.bound,
         point=skin.point,
         size=skin.base[1],
         max_thickness_mm=skin.base[2],
@@ -87,6 +95,14 @@ def state_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SkinState
         row=settings.row,
         rebuilt=(),
     )
+
+
+def choice_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> WeightsChoice:
+    """Whether a skin shows the object's weight or weights on the surface, and what that would cost or saves."""
+    group = obj.original.skinglow.group
+    atlas = STATE.atlases.get((group.name_full, depsgraph.mode)) if group is not None else None
+    table = atlas.tables.get(obj.original.name_full) if atlas is not None else None
+    return table.choice if table is not None else OBJECT_WEIGHT
 
 
 def update(depsgraph: bpy.types.Depsgraph) -> list[Rebuilt]:
@@ -104,6 +120,8 @@ def update(depsgraph: bpy.types.Depsgraph) -> list[Rebuilt]:
 def lut(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
     """The lookup as the object's material shows it, (size, 3) float32, linear Rec.709, thin skin first.
 
+    With surface weights, where each pixel has light of its own: the lookup at the object's one weight.
+
     It is read from the image that the node shows; where viewport and render differ, from the one of the depsgraph's
     mode. Raises SkinError where the object is no skin.
     """
@@ -116,11 +134,14 @@ def lut(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
         image = pair[atlas.front]
     if image is None:
         raise SkinError(f"'{obj.name}': the image of its lookup is gone; make the skin again")
-    size = atlas.sizes.get(obj.original.name_full) if atlas is not None else None
-    if size is None:
+    table = atlas.tables.get(obj.original.name_full) if atlas is not None else None
+    if table is not None:
+        size = len(table.colors)
+    else:
         evaluated = obj.evaluated_get(depsgraph)
         size = read_skin(evaluated, evaluated.matrix_world).base[1]
-    return read_row(image, settings.row, size)
+    row, layout = read_row(image, settings.row), group_layout(group)
+    return row[:size, :3].copy() if layout is None else shown_colors(row, size, layout)
 
 
 def remove_skin(obj: bpy.types.Object) -> None:
@@ -142,6 +163,7 @@ def remove_skin(obj: bpy.types.Object) -> None:
     if group is not None and group.library is None and not any(o.skinglow.group == group for o in skins):
         remove_images(group)
         if group.users == 0:
+            clear(group)
             bpy.data.node_groups.remove(group)
         STATE.forget()
     obj.update_tag(refresh={"OBJECT"})

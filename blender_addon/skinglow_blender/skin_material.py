@@ -1,107 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The node group that turns thickness into light coming through, and its place in a skin's materials."""
+"""The place of the skin's node group in an object's materials."""
 
 import bpy
 
 from . import blender_version
 from .errors import SkinError
-from .lut_image import GROUP_PROPERTY, NODE_NAMES, ensure_images, is_skin_group, skin_groups
-from .scene_reading import ROW_PROPERTY
+from .lut_image import is_skin_group, skin_groups
+from .skin_group import new_group
 
-GROUP_NAME = "Skinglow"
-THICKNESS_ATTRIBUTE = "skinglow_thickness"
-
+#: On the node in a material: how Cycles sampled the material's emission before.
+SAMPLING_PROPERTY = "skinglow_sampling"
 #: A light skin, linear Rec.709, for objects without a material: the light skin patch of the ColorChecker chart
 #: (sRGB 194, 150, 130; X-Rite's published values).
 PLAIN_SKIN_COLOR = (0.5395, 0.3050, 0.2232, 1.0)
 PLAIN_SKIN_ROUGHNESS = 0.45
-
-
-def new_group() -> bpy.types.NodeTree:
-    """Builds the node group: Surface in, Shader out, the light coming through added between.
-
-    The object's custom property gives, for each object on the material, its texels per mm, the width of a texel, the
-    height of its row and its strength; an object without the property has strength 0 and does not glow.
-
-    The two texels about a thickness are read without filtering and mixed by nodes: EEVEE filters an image with mip
-    maps, in which the rows of different skins run together, and by weights of eight bits.
-    """
-    group = bpy.data.node_groups.new(GROUP_NAME, "ShaderNodeTree")
-    blender_version.new_group_socket(group, "Surface", "NodeSocketShader", "INPUT", "The skin's surface, kept as it is")
-    blender_version.new_group_socket(
-        group, "Shader", "NodeSocketShader", "OUTPUT", "The surface and the light coming through the skin"
-    )
-    surface = _node(group, "NodeGroupInput", 900, 250)
-    shader = _node(group, "NodeGroupOutput", 1300, 150)
-    thickness = _node(group, "ShaderNodeAttribute", -700, 200, "Thickness, mm")
-    thickness.attribute_type, thickness.attribute_name = "GEOMETRY", THICKNESS_ATTRIBUTE
-    row = _node(group, "ShaderNodeAttribute", -700, -50, "Texels/mm, texel width, row, strength")
-    row.attribute_type, row.attribute_name = "OBJECT", ROW_PROPERTY
-    split = _node(group, "ShaderNodeSeparateXYZ", -500, -50)
-    _link(group, row.outputs["Vector"], split.inputs[0])
-    texel = _math(group, "MULTIPLY", -300, 200, thickness.outputs["Fac"], split.outputs["X"], "Texel")
-    below = _math(group, "FLOOR", -100, 100, texel)
-    share = _math(group, "FRACT", -100, 300, texel)
-
-    colors = []
-    for y, name, to_centre in ((100, NODE_NAMES[0], 0.5), (-200, NODE_NAMES[1], 1.5)):
-        centre = _math(group, "ADD", 100, y, below, to_centre)
-        along = _math(group, "MULTIPLY", 250, y, centre, split.outputs["Y"])
-        place = _node(group, "ShaderNodeCombineXYZ", 400, y)
-        lookup = _node(group, "ShaderNodeTexImage", 550, y, "Light coming through")
-        lookup.name, lookup.extension, lookup.interpolation = name, "EXTEND", "Closest"
-        _link(group, along, place.inputs["X"])
-        _link(group, split.outputs["Z"], place.inputs["Y"])
-        _link(group, place.outputs[0], lookup.inputs["Vector"])
-        colors.append(lookup.outputs["Color"])
-    step = _node(group, "ShaderNodeVectorMath", 800, -100)
-    step.operation = "SUBTRACT"
-    _link(group, colors[1], step.inputs[0])
-    _link(group, colors[0], step.inputs[1])
-    mix = _node(group, "ShaderNodeVectorMath", 950, 0)
-    mix.operation = "MULTIPLY_ADD"
-    for socket, source in zip(mix.inputs, (step.outputs[0], share, colors[0]), strict=False):
-        _link(group, source, socket)
-
-    emission = _node(group, "ShaderNodeEmission", 1100, 0)
-    _link(group, mix.outputs[0], emission.inputs["Color"])
-    _link(group, row.outputs["Alpha"], emission.inputs["Strength"])
-    add = _node(group, "ShaderNodeAddShader", 1200, 150)
-    _link(group, surface.outputs["Surface"], add.inputs[0])
-    _link(group, emission.outputs[0], add.inputs[1])
-    _link(group, add.outputs[0], shader.inputs["Shader"])
-    group[GROUP_PROPERTY] = 1
-    ensure_images(group, 256, 1)
-    return group
-
-
-def _node(group: bpy.types.NodeTree, kind: str, x: float, y: float, label: str = "") -> bpy.types.Node:
-    node = group.nodes.new(kind)
-    node.location, node.label = (x, y), label
-    return node
-
-
-def _link(group: bpy.types.NodeTree, source: bpy.types.NodeSocket, target: bpy.types.NodeSocket) -> None:
-    group.links.new(source, target)
-
-
-def _math(
-    group: bpy.types.NodeTree,
-    operation: str,
-    x: float,
-    y: float,
-    first: bpy.types.NodeSocket,
-    second: bpy.types.NodeSocket | float = 0.0,
-    label: str = "",
-) -> bpy.types.NodeSocket:
-    node = _node(group, "ShaderNodeMath", x, y, label)
-    node.operation = operation
-    _link(group, first, node.inputs[0])
-    if isinstance(second, float):
-        node.inputs[1].default_value = second
-    else:
-        _link(group, second, node.inputs[1])
-    return node.outputs[0]
 
 
 def add_to_materials(obj: bpy.types.Object, group: bpy.types.NodeTree | None) -> bpy.types.NodeTree:
@@ -152,11 +64,17 @@ def remove_from_material(material: bpy.types.Material) -> None:
         for socket in after:
             if before is not None:
                 tree.links.new(before, socket)
+        if SAMPLING_PROPERTY in node:
+            blender_version.set_emission_sampling(material, node[SAMPLING_PROPERTY])
         tree.nodes.remove(node)
         node = skin_node(material)
 
 
 def _insert(material: bpy.types.Material, group: bpy.types.NodeTree) -> None:
+    # Cycles would take each face of the skin for a lamp and spend most of its samples on them: three times the
+    # time, for light so faint that it is found without.
+    sampling = blender_version.emission_sampling(material)
+    blender_version.set_emission_sampling(material, blender_version.NO_EMISSION_SAMPLING)
     plain = blender_version.shader_tree(material) is None
     tree = blender_version.ensure_shader_tree(material)
     if plain:
@@ -168,6 +86,8 @@ def _insert(material: bpy.types.Material, group: bpy.types.NodeTree) -> None:
         surface = output.inputs["Surface"]
         node = tree.nodes.new("ShaderNodeGroup")
         node.node_tree = group
+        if sampling is not None:
+            node[SAMPLING_PROPERTY] = sampling
         node.location = (output.location.x, output.location.y)
         output.location.x += 200
         if surface.is_linked:

@@ -22,6 +22,19 @@ MODES = (
     ("PAPER", "Paper", "Base lookup times blood weight plus the attenuated light colours (Kim et al., Eq. 1 to 3)"),
     ("PHYSICAL", "Physical", "Layered skin, solved, lit by what each light brings to its far side in W/m^2"),
 )
+WEIGHTS = (
+    (
+        "OBJECT",
+        "Object",
+        "One weight for the whole object: each lamp as if the far side faced it, at the reference point",
+    ),
+    (
+        "SURFACE",
+        "Surface",
+        "The light is worked out at each pixel, on the far side, with its angle: for lamps that are near",
+    ),
+    ("AUTO", "Automatic", "Surface, where one weight for the object may be more than 5 % off anywhere on it"),
+)
 BASES = (
     ("BUILTIN", "Built-in", "Brightness of the six-Gaussian skin profile (d'Eon and Luebke 2007)"),
     ("IMAGE", "Image", "Brightness of an image's columns, thin skin at its left, thick at its right"),
@@ -104,6 +117,13 @@ class SkinSettings(bpy.types.PropertyGroup):
         default="PAPER",
         update=_changed,
         description="How the light coming through is computed",
+    )
+    weights: EnumProperty(
+        name="Weights",
+        items=WEIGHTS,
+        default="OBJECT",
+        update=_changed,
+        description="Whether the lamps are weighed once for the object or at each pixel (mode physical)",
     )
     strength: FloatProperty(
         name="Strength",

@@ -9,27 +9,57 @@ import numpy as np
 
 from .base_image import base_of_image, brightness
 from .errors import SkinError, core
+from .lut_layout import MAX_TERMS, Layout, layout_of
 from .scene_lights import Lamp, make_light
 from .scene_reading import Skin
 from .skin_settings import TISSUE_SLIDERS
+
+#: With weights 'AUTO' the object's one weight will do where it is off by no more than this share of itself.
+AUTO_TOLERANCE = 0.05
+
+
+class WeightsChoice(NamedTuple):
+    """Which weights a skin shows."""
+
+    weights: str  #: 'OBJECT' or 'SURFACE'
+    bound: float | None  #: how far the object's weight may be off on the surface, a share of it; None: not asked for
+
+
+OBJECT_WEIGHT = WeightsChoice("OBJECT", None)
 
 
 class Table(NamedTuple):
     """A skin's lookup: one linear Rec.709 colour per entry, and where a thickness finds its entry."""
 
-    colors: np.ndarray  #: (size, 3) float64
+    colors: np.ndarray  #: (size, 3) float64, at the object's weight
     texel_mapping: tuple[float, float]  #: as skinglow.BaseLut.texel_mapping
     weight: tuple[float, float, float] | None  #: what the base was multiplied by; None in mode `existing`
+    columns: np.ndarray  #: (size, 3, 3): M(d)
+    choice: WeightsChoice = OBJECT_WEIGHT
+    lighting: Any = None  #: a skinglow.SurfaceLighting, where the light is worked out at each pixel
 
 
-def signature_of(skin: Skin, lamps: list[Lamp]) -> tuple:
+class Signature(NamedTuple):
     """All that a skin's table depends on: it is computed again only when this changes."""
+
+    mode: str
+    base: tuple
+    blood_weight: tuple | None = None
+    attenuation: tuple | None = None
+    point: tuple | None = None
+    weights: str | None = None
+    surface: tuple | None = None
+    lights: tuple = ()
+
+
+def signature_of(skin: Skin, lamps: list[Lamp]) -> Signature:
+    """What decides a skin's table in its mode, and nothing else."""
     if skin.mode == "EXISTING":
-        return (skin.mode, skin.base)
+        return Signature(skin.mode, skin.base)
     lights = tuple(lamp.signature for lamp in lamps_of(skin, lamps))
     if skin.mode == "PAPER":
-        return (skin.mode, skin.base, skin.blood_weight, skin.attenuation, skin.point, lights)
-    return (skin.mode, skin.base, skin.point, lights)
+        return Signature(skin.mode, skin.base, skin.blood_weight, skin.attenuation, skin.point, lights=lights)
+    return Signature(skin.mode, skin.base, point=skin.point, weights=skin.weights, surface=skin.surface, lights=lights)
 
 
 def lamps_of(skin: Skin, lamps: list[Lamp]) -> list[Lamp]:
@@ -37,22 +67,61 @@ def lamps_of(skin: Skin, lamps: list[Lamp]) -> list[Lamp]:
     return [lamp for lamp in lamps if not lamp.left_out and lamp.lights(skin.name)]
 
 
-def compute_table(skin: Skin, lamps: list[Lamp]) -> Table:
-    """Computes a skin's lookup. Raises SkinError or ValueError, in words, where it cannot."""
+def compute_table(skin: Skin, lamps: list[Lamp], room: Layout | None = None) -> Table:
+    """Computes a skin's lookup. Raises SkinError or ValueError, in words, where it cannot.
+
+    room  what its light on the surface has to fit into; None: as much as it needs
+    """
     sg = core()
     base = base_lut(skin.base)
     if skin.mode == "EXISTING":
-        return Table(sg.six_gaussian_lookup(base.size, base.max_thickness_mm), base.texel_mapping, None)
+        colors = sg.six_gaussian_lookup(base.size, base.max_thickness_mm)
+        return Table(colors, base.texel_mapping, None, colors[:, :, None] * np.eye(3))
     lights = [make_light(lamp) for lamp in lamps_of(skin, lamps)]
+    choice, lighting = OBJECT_WEIGHT, None
     if skin.mode == "PAPER":
         weight = np.add(skin.blood_weight, sg.light_weight(lights, skin.point, skin.attenuation))
     else:
+        irradiance = sg.irradiance(lights, skin.point)
+        choice = _choose_weights(skin, lights, irradiance)
+        if choice.weights == "SURFACE":
+            lighting = _lighting(skin, lights, room)
         # Light that leaves diffusely: the radiance is the flux per area over pi.
-        weight = sg.irradiance(lights, skin.point) / math.pi
+        weight = irradiance / math.pi
     colors = sg.recolour(base, weight)
     if np.abs(colors).max() > np.finfo(np.float32).max:
         raise SkinError(f"{skin.name}: the lookup is brighter than an image can hold; turn the lights down")
-    return Table(colors, base.texel_mapping, tuple(float(w) for w in weight))
+    return Table(colors, base.texel_mapping, tuple(float(w) for w in weight), base.matrices, choice, lighting)
+
+
+def _choose_weights(skin: Skin, lights: list, irradiance: np.ndarray) -> WeightsChoice:
+    if skin.surface is None:
+        return OBJECT_WEIGHT
+    surface = skin.surface
+    off = core().object_irradiance_error(lights, skin.point, surface.least, surface.most, surface.facing)
+    largest = float(np.abs(irradiance).max())
+    bound = float(off.max()) / largest if largest > 0.0 else 0.0
+    return WeightsChoice("SURFACE" if skin.weights == "SURFACE" or bound > AUTO_TOLERANCE else "OBJECT", bound)
+
+
+def _lighting(skin: Skin, lights: list, room: Layout | None) -> Any:  # noqa: ANN401
+    """The light on the surface with as many terms as there may be, or as there is room for."""
+    sg = core()
+    angular = _angular_weight(skin.base)
+    for most in range(MAX_TERMS, -1, -1):
+        found = sg.SurfaceLighting(lights, skin.surface.least, skin.surface.most, None, angular, max_terms=most)
+        if room is None or room.holds(layout_of(found, skin.base[1])):
+            return found
+    raise SkinError(
+        f"{skin.name}: its material has no room for these lamps, and none can be made while rendering; show the lamps "
+        "that render in the viewport once, or set Weights to Object"
+    )
+
+
+@lru_cache(maxsize=64)
+def _angular_weight(key: tuple) -> Any:  # noqa: ANN401  a skinglow.AngularWeight
+    sg = core()
+    return sg.skin_angular_weight(sg.Tissue(**dict(zip(TISSUE_SLIDERS, key[3], strict=True))))
 
 
 def base_lut(key: tuple) -> Any:  # noqa: ANN401  a skinglow.BaseLut

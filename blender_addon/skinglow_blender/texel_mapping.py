@@ -3,8 +3,7 @@
 
 import bpy
 
-from .scene_reading import Skin
-from .thickness_attribute import MEASURED_SIZE
+from .scene_reading import Skin, grown
 
 
 def texels_per_mm(obj: bpy.types.Object, skin: Skin, texel_mapping: tuple[float, float]) -> float:
@@ -13,6 +12,4 @@ def texels_per_mm(obj: bpy.types.Object, skin: Skin, texel_mapping: tuple[float,
     texel_mapping  as skinglow.BaseLut.texel_mapping: for an image as wide as the table
     An object scaled since it was measured has grown thicker by as much.
     """
-    measured = obj.data.get(MEASURED_SIZE, skin.world_size)
-    grown = skin.world_size / measured if measured > 0.0 else 1.0
-    return texel_mapping[0] * skin.base[1] * grown
+    return texel_mapping[0] * skin.base[1] * grown(obj.data, skin.world_size)

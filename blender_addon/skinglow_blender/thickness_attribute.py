@@ -9,14 +9,13 @@ import bpy
 import numpy as np
 
 from .errors import SkinError, core
-from .skin_material import THICKNESS_ATTRIBUTE
+from .scene_reading import MEASURED_CONE, MEASURED_SIZE, MEASURED_UNIT, MM_PER_METRE
+from .skin_group import THICKNESS_ATTRIBUTE
 from .skin_settings import as_typed
 
-#: Mesh property: edge of the cube that the mesh's unit cube filled when it was measured, scene units.
-MEASURED_SIZE = "skinglow_world_size"
-#: Mesh property: digest of what it was measured on.
+#: Mesh property: digest of what it was measured on, or that its thicknesses were given.
 MEASURED_GEOMETRY = "skinglow_measured"
-MM_PER_METRE = 1000.0
+GIVEN = "given"
 
 
 def unit_mm(obj: bpy.types.Object, scene: bpy.types.Scene) -> float:
@@ -64,12 +63,18 @@ def read_geometry(obj: bpy.types.Object, scene: bpy.types.Scene) -> Geometry:
 def ensure_measured(
     obj: bpy.types.Object, scene: bpy.types.Scene, progress: Callable[[float], bool] | None = None
 ) -> bool:
-    """Measures and stores a mesh's thickness unless that was done for this very geometry; whether it did."""
+    """Measures and stores a mesh's thickness unless that was done for this very geometry; whether it did.
+
+    Thicknesses that were given stay until they are measured on purpose ('Measure Thickness').
+    """
+    check_mesh(obj)
+    if obj.data.get(MEASURED_GEOMETRY) == GIVEN and THICKNESS_ATTRIBUTE in obj.data.attributes:
+        return False
     geometry = read_geometry(obj, scene)
     digest = geometry.digest()
     if obj.data.get(MEASURED_GEOMETRY) == digest and THICKNESS_ATTRIBUTE in obj.data.attributes:
         return False
-    store(obj, measure(geometry, progress))
+    store(obj, measure(geometry, progress), geometry.unit_mm)
     obj.data[MEASURED_GEOMETRY] = digest
     return True
 
@@ -105,8 +110,8 @@ def check_mesh(obj: bpy.types.Object) -> None:
         raise SkinError(f"'{obj.name}' has scale 0 along an axis, so that it has no thickness: scale it up")
 
 
-def store(obj: bpy.types.Object, thickness_mm: Sequence[float]) -> None:
-    """Writes thicknesses, one per vertex in mm, as the attribute."""
+def store(obj: bpy.types.Object, thickness_mm: Sequence[float], unit_mm: float) -> None:
+    """Writes thicknesses, one per vertex in mm, as the attribute, and what goes with it; unit_mm of a scene unit."""
     mesh = obj.data
     values = np.ascontiguousarray(thickness_mm, np.float32)
     if values.shape != (len(mesh.vertices),):
@@ -122,8 +127,13 @@ def store(obj: bpy.types.Object, thickness_mm: Sequence[float]) -> None:
     if attribute is None:
         attribute = mesh.attributes.new(THICKNESS_ATTRIBUTE, "FLOAT", "POINT")
     attribute.data.foreach_set("value", values)
-    mesh.pop(MEASURED_GEOMETRY, None)
+    mesh[MEASURED_GEOMETRY] = GIVEN
     mesh[MEASURED_SIZE] = abs(obj.matrix_world.to_3x3().determinant()) ** (1.0 / 3.0)
+    mesh[MEASURED_UNIT] = unit_mm
+    normals = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("normal", normals)
+    axis, half_angle = core().normal_cone(normals.reshape(-1, 3))
+    mesh[MEASURED_CONE] = (*axis, half_angle)
     mesh.update()
 
 
@@ -132,5 +142,5 @@ def remove(mesh: bpy.types.Mesh) -> None:
     attribute = mesh.attributes.get(THICKNESS_ATTRIBUTE)
     if attribute is not None:
         mesh.attributes.remove(attribute)
-    for name in (MEASURED_SIZE, MEASURED_GEOMETRY):
+    for name in (MEASURED_SIZE, MEASURED_UNIT, MEASURED_CONE, MEASURED_GEOMETRY):
         mesh.pop(name, None)

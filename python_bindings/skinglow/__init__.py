@@ -21,6 +21,7 @@ from skinglow._core import (
     LightTree,
     SkinLutReport,
     SlabResult,
+    SurfaceLighting,
     ThicknessCurve,
     Tissue,
     __version__,
@@ -43,6 +44,7 @@ from skinglow._core import (
     line_spectrum,
     lut_error,
     merge_identical,
+    normal_cone,
     object_irradiance_error,
     povray_scene,
     read_light_rig,
@@ -51,6 +53,7 @@ from skinglow._core import (
     rgb_spectrum,
     six_gaussian_base,
     six_gaussian_lookup,
+    skin_angular_weight,
     skin_layers,
     slab,
     spectral_colour,
@@ -113,16 +116,20 @@ __all__ = [
     "irradiance",
     "irradiances",
     "legacy_sun_power_factor",
+    "skin_angular_weight",
     "surface_irradiance",
     "unnormalised_power_factor",
     # Which lights matter, and what each does
     "LightTree",
     "light_report",
     "merge_identical",
+    "normal_cone",
     "object_irradiance_error",
     # Light rigs from files
     "LightRig",
     "read_light_rig",
+    # The light at each place of a surface, for materials
+    "SurfaceLighting",
     # POV-Ray
     "povray_scene",
     # Meshes

@@ -1,0 +1,114 @@
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <array>
+#include <vector>
+
+#include "argument_check.h"
+#include "light_bounds.h"
+#include "numpy_conversion.h"
+#include "surface_lighting.h"
+
+namespace py = pybind11;
+using namespace py::literals;
+using namespace skinglow;
+
+namespace {
+
+SurfaceLighting make_lighting(const std::vector<Light>& lights, py::handle box_min, py::handle box_max,
+                              const Environment* environment, const AngularWeight* angular_weight,
+                              std::size_t max_terms, double tolerance) {
+    const Box box{numpy::to_vec3(box_min, "box_min"), numpy::to_vec3(box_max, "box_max")};
+    return {lights, box, environment, angular_weight, {max_terms, tolerance}};
+}
+
+/// (n, 4, 4): a row of texels for each term.
+py::array terms_as_texels(const SurfaceLighting& self) {
+    const auto count = static_cast<py::ssize_t>(self.terms().size());
+    numpy::Array texels({count, py::ssize_t{4}, py::ssize_t{4}});
+    double* out = texels.mutable_data();
+    for (const SurfaceTerm& t : self.terms()) {
+        const std::array<double, 16> row = {
+            t.place.x,        t.place.y,        t.place.z,        t.positional,  //
+            t.against_axis.x, t.against_axis.y, t.against_axis.z, t.square,      //
+            t.strength.r,     t.strength.g,     t.strength.b,     t.smooth,      //
+            t.by_cosine,      t.constant,       t.by_sine,        t.cosine};
+        out = std::copy(row.begin(), row.end(), out);
+    }
+    return texels;
+}
+
+py::array irradiance_at(const SurfaceLighting& self, py::handle points, py::handle normals) {
+    const std::vector<glm::dvec3> places = numpy::to_vec3s(points, "points");
+    const std::vector<glm::dvec3> directions = numpy::to_vec3s(normals, "normals");
+    if (places.size() != directions.size()) {
+        refuse_argument("number of normals", std::to_string(directions.size()),
+                        "as many as points (" + std::to_string(places.size()) + ")");
+    }
+    std::vector<glm::dvec3> result(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        require_finite("points", places[i]);
+        require_finite("normals", directions[i]);
+        if (directions[i] != glm::dvec3(0.0)) result[i] = self.irradiance(places[i], unit(directions[i]));
+    }
+    return numpy::from_vec3s(std::move(result));
+}
+
+}  // namespace
+
+void bind_surface_lighting(py::module_& m) {
+    py::class_<SurfaceLighting>(
+        m, "SurfaceLighting",
+        R"(The light on the far side of a skin in a form that a material works out at each pixel.
+
+A term for each lamp that matters (the brightest first), and one polynomial in the normal for the world and all lamps
+beyond max_terms, which shine as if from far away.
+box_min, box_max  (3,), world: of the box that holds the skin
+environment       Environment or None (black); angular_weight  AngularWeight or None (every angle alike)
+max_terms         a material's work grows with them
+tolerance         an area lamp is cut into tiles until its terms are this near to its irradiance, as a share of all the
+                  light, at the corners of the box; above 0
+Raises ValueError naming what is wrong.)")
+        .def(py::init(&make_lighting), "lights"_a, "box_min"_a, "box_max"_a, "environment"_a = py::none(),
+             "angular_weight"_a = py::none(), "max_terms"_a = 8, "tolerance"_a = 0.01)
+        .def_property_readonly("terms", &terms_as_texels,
+                               R"((n, 4, 4): four texels for each term, plain terms first.
+
+place (of a sun the unit direction to it) and 1 (of a sun 0); unit direction against the axis and the square of the radius;
+strength, W, linear Rec.709, and smooth; by_cosine, constant, by_sine and cosine of the profile. At a place x that faces
+along n:  v = place - positional x,  q = |v|^2 + square,  l = v/|v|,  s = sqrt(square/q),  mu = n.l,
+h = clamp(mu + s, 0, 2s),  received = h^2/(4s) + max(mu - s, 0),  c = against_axis.l,
+t = clamp(by_cosine c + constant + by_sine sqrt(1 - c^2), 0, 1),
+profile = t (1 + smooth (t(3 - 2t) - 1)) (1 + cosine (c - 1)),  E = strength w(mu) received profile / q.)")
+        .def_property_readonly("plain_terms", &SurfaceLighting::plain_terms,
+                               "How many terms have profile 1: they come first.")
+        .def_property_readonly("lights_of_terms", &SurfaceLighting::lights_of_terms,
+                               "Index of the light that each term is of.")
+        .def_property_readonly("far_lights", &SurfaceLighting::far_lights,
+                               "Indices of the lights that have no term: they are in the polynomial.")
+        .def_property_readonly(
+            "polynomial",
+            [](const SurfaceLighting& self) {
+                return numpy::from_vec3s({self.polynomial().begin(), self.polynomial().end()});
+            },
+            "(9, 3), W/m^2: coefficients of 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2 of the normal; the "
+            "sum counts "
+            "from 0.")
+        .def_property_readonly(
+            "angular",
+            [](const SurfaceLighting& self) {
+                return numpy::from_vec3s({self.angular().begin(), self.angular().end()});
+            },
+            "(4, 3): w(mu) = c0 + c1 mu + c2 mu^2 + c3 mu^3 of each channel, mu from 0 to 1.")
+        .def("irradiance", &irradiance_at, "points"_a, "normals"_a,
+             "What the material shows: W/m^2, (n, 3), at points (n, 3) that face along normals (n, 3) of any "
+             "length.");
+    m.def(
+        "normal_cone",
+        [](py::handle normals) {
+            const NormalCone cone = normal_cone(numpy::to_vec3s(normals, "normals"));
+            return py::make_tuple(numpy::from_vec3(cone.axis), cone.half_angle);
+        },
+        "normals"_a,
+        "The cone that holds normals (n, 3) of any length: its unit axis (3,) and half angle, radians.");
+}
