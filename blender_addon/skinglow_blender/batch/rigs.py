@@ -141,8 +141,8 @@ def lit_by(scene: bpy.types.Scene, ready: ReadyRig, onto: tuple[float, float, fl
         if ready.shown is not None:
             for name in ready.collections:
                 collection = bpy.data.collections.get(name)
-                if collection is not None:
-                    _set(undo, collection, False)
+                for hiding in HIDING if collection is not None else ():
+                    _set(undo, collection, hiding, False)
             for obj in lamps_of(scene):
                 _show_only_if(undo, obj, obj.name in ready.shown)
         notes = []
@@ -151,21 +151,27 @@ def lit_by(scene: bpy.types.Scene, ready: ReadyRig, onto: tuple[float, float, fl
         yield notes
 
 
+#: What hides an object or a collection. The viewport too has the rig's lamps: by them a skin's nodes get their room,
+#: which cannot be had while rendering.
+HIDING = ("hide_render", "hide_viewport")
+
+
 def _show_only_if(undo: ExitStack, obj: bpy.types.Object, shown: bool) -> None:
-    curves = blender_version.animation_curves(obj, "hide_render")
-    if shown and curves:
-        return  # its animation says when it shines
-    for curve in curves:
-        if not curve.mute:
-            curve.mute = True
-            undo.callback(setattr, curve, "mute", False)
-    _set(undo, obj, not shown)
+    for hiding in HIDING:
+        curves = blender_version.animation_curves(obj, hiding)
+        if shown and curves:
+            continue  # its animation says when it shines
+        for curve in curves:
+            if not curve.mute:
+                curve.mute = True
+                undo.callback(setattr, curve, "mute", False)
+        _set(undo, obj, hiding, not shown)
 
 
-def _set(undo: ExitStack, owner: bpy.types.Object | bpy.types.Collection, hidden: bool) -> None:
-    if owner.hide_render != hidden:
-        owner.hide_render = hidden
-        undo.callback(setattr, owner, "hide_render", not hidden)
+def _set(undo: ExitStack, owner: bpy.types.Object | bpy.types.Collection, hiding: str, hidden: bool) -> None:
+    if getattr(owner, hiding) != hidden:
+        setattr(owner, hiding, hidden)
+        undo.callback(setattr, owner, hiding, not hidden)
 
 
 def check_lamps(ready: ReadyRig, scene: bpy.types.Scene, seen: set[str]) -> None:
