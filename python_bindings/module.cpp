@@ -5,6 +5,7 @@ void bind_light(pybind11::module_& m);
 void bind_slab(pybind11::module_& m);
 void bind_tissue(pybind11::module_& m);
 void bind_irradiance(pybind11::module_& m);
+void bind_rig(pybind11::module_& m);
 void bind_povray(pybind11::module_& m);
 void bind_surface_lighting(pybind11::module_& m);
 
@@ -22,6 +23,9 @@ PYBIND11_MODULE(_core, m) {
 #endif
 #ifdef SKINGLOW_BIND_IRRADIANCE
     bind_irradiance(m);
+#endif
+#ifdef SKINGLOW_BIND_RIG
+    bind_rig(m);
 #endif
     bind_surface_lighting(m);
 #ifdef SKINGLOW_BIND_POVRAY

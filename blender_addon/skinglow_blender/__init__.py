@@ -11,6 +11,7 @@ from functools import wraps
 from typing import Any
 
 from . import (
+    batch,
     bundled_core,
     handlers,
     light_listing,
@@ -22,6 +23,7 @@ from . import (
     skin,
     skin_settings,
 )
+from .batch import BatchResult, BatchStep, Rig
 from .errors import SkinError
 from .live_update import Rebuilt
 from .skin import SkinState
@@ -37,20 +39,25 @@ bl_info = {
 }
 
 __all__ = [
+    "BatchResult",
+    "BatchStep",
     "Rebuilt",
+    "Rig",
     "SkinError",
     "SkinState",
+    "batch_main",
     "export_povray",
     "light_report",
     "lut",
     "make_skin",
     "register",
     "remove_skin",
+    "render_batch",
     "unregister",
     "update",
 ]
 
-_PARTS = (bundled_core, skin_settings, scene_settings, lut_preview, operators, panel, handlers)
+_PARTS = (bundled_core, skin_settings, scene_settings, lut_preview, operators, panel, handlers, batch)
 _registered = False
 
 
@@ -89,3 +96,5 @@ lut = _registering(skin.lut)
 light_report = _registering(light_listing.light_report)
 export_povray = _registering(povray_export.export_povray)
 remove_skin = _registering(skin.remove_skin)
+render_batch = _registering(batch.render_batch)
+batch_main = _registering(batch.main)

@@ -98,6 +98,26 @@ def light_casts_shadows(light: bpy.types.Light) -> bool:
     return getattr(light, "use_shadow", True) and getattr(getattr(light, "cycles", None), "cast_shadow", True)
 
 
+def animation_curves(owner: bpy.types.ID, path: str | None = None) -> list[bpy.types.FCurve]:
+    """The curves that animate or drive a data block's own properties, or one of them; actions have layers since 4.4."""
+    animation = owner.animation_data
+    if animation is None:
+        return []
+    curves = list(animation.drivers)
+    action = animation.action
+    if action is not None and VERSION >= (4, 4, 0):
+        bags = (strip.channelbag(animation.action_slot) for layer in action.layers for strip in layer.strips)
+        curves += [curve for bag in bags if bag is not None for curve in bag.fcurves]
+    elif action is not None:
+        curves += action.fcurves
+    return [curve for curve in curves if path is None or curve.data_path == path]
+
+
+def literal_path(path: str) -> str:
+    """An output path that Blender takes as it stands: from 4.5 on, braces in it are templates."""
+    return path if VERSION < (4, 5, 0) else path.replace("{", "{{").replace("}", "}}")
+
+
 def light_receivers(obj: bpy.types.Object) -> bpy.types.Collection | None:
     """The collection of objects a lamp is linked to (4.0); None: it lights all."""
     linking = getattr(obj, "light_linking", None)

@@ -19,9 +19,6 @@ LutRecord to_lut_record(const HeaderText& text, const std::filesystem::path& pat
 /// The axis in the text, if it has one. Throws FileError where its value is not a number above 0.
 std::optional<double> axis_in(const HeaderText& text, const std::filesystem::path& path);
 
-/// The finite number that the whole of `text` spells; none otherwise.
-std::optional<double> parse_number(std::string_view text);
-
 /// Names of the nine channels of a table of matrices, row by row.
 std::vector<std::string> matrix_channels();
 

@@ -1,10 +1,9 @@
 #include <array>
-#include <charconv>
-#include <cmath>
 
 #include "argument_check.h"
 #include "io/file_error.h"
 #include "io/lut_format.h"
+#include "io/parse_number.h"
 
 namespace skinglow {
 namespace {
@@ -38,14 +37,6 @@ std::optional<glm::dvec3> find_three_numbers(const HeaderText& text, const std::
 }
 
 }  // namespace
-
-std::optional<double> parse_number(std::string_view text) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        return std::nullopt;
-    return value;
-}
 
 HeaderText to_header_text(const LutRecord& record) {
     HeaderText text{{"skinglow:table", "recoloured"}, {axis_key, to_text(record.max_thickness_mm)}};

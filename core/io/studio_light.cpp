@@ -11,7 +11,7 @@
 
 #include "argument_check.h"
 #include "io/file_error.h"
-#include "io/lut_format.h"
+#include "io/parse_number.h"
 
 namespace skinglow {
 namespace {

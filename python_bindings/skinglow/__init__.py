@@ -17,6 +17,7 @@ from skinglow._core import (
     Environment,
     Layer,
     Light,
+    LightRig,
     LightTree,
     SkinLutReport,
     SlabResult,
@@ -47,6 +48,7 @@ from skinglow._core import (
     normal_cone,
     object_irradiance_error,
     povray_scene,
+    read_light_rig,
     recolour,
     reference_lut,
     rgb_spectrum,
@@ -126,6 +128,9 @@ __all__ = [
     "merge_identical",
     "normal_cone",
     "object_irradiance_error",
+    # Light rigs from files
+    "LightRig",
+    "read_light_rig",
     # The light at each place of a surface, for materials
     "SurfaceLighting",
     # POV-Ray

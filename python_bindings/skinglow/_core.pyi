@@ -1,6 +1,7 @@
 """Types of the compiled module. help(skinglow.<name>) has units, ranges and sources."""
 
 from collections.abc import Sequence
+from os import PathLike
 from typing import Any, ClassVar, Final, Literal, TypedDict, overload
 
 import numpy as np
@@ -415,6 +416,24 @@ def light_report(
     occluded: Sequence[bool] = [],
     kept: Sequence[int] | None = None,
 ) -> list[_LightReportEntry]: ...
+
+# Light rigs from files (bind_rig.cpp)
+
+class LightRig:
+    @property
+    def name(self) -> str: ...
+    @property
+    def point(self) -> _Array: ...
+    @property
+    def coefficients(self) -> _Array: ...
+    @property
+    def blood_weight(self) -> _Array: ...
+    @property
+    def lights(self) -> list[Light]: ...
+    @property
+    def notes(self) -> list[str]: ...
+
+def read_light_rig(path: str | PathLike[str], camera_rotation: ArrayLike | None = None) -> LightRig: ...
 
 # POV-Ray (bind_povray.cpp)
 

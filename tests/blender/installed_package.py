@@ -46,9 +46,14 @@ def use():
 
     found["skinglow"], found["core"] = sg.__file__, sg._core.__file__
     found["addon"] = sb.make_skin.__code__.co_filename
-    found["functions"] = [name for name in ("make_skin", "update", "lut") if not callable(getattr(sb, name))]
+    names = ("make_skin", "update", "lut", "render_batch", "batch_main")
+    found["functions"] = [name for name in names if not callable(getattr(sb, name))]
     found |= follow_a_lamp(sg, sb)
-    found["refused"] = [refusal(sg.thickness, [(0, 0, 0)], [(0, 1, 2)]), refusal(sg.attenuation, -1.0)]
+    found["refused"] = [
+        refusal(sg.thickness, [(0, 0, 0)], [(0, 1, 2)]),
+        refusal(sg.attenuation, -1.0),
+        refusal(sg.read_light_rig, "/no/such/rig.json"),
+    ]
     found["rays"] = sys.modules["skinglow._rays"].__file__
     found["render"] = render()
     found["warnings"] = warnings()

@@ -75,7 +75,7 @@ def test_wheel_brings_its_licences_and_nothing_else(python: str) -> None:
         names = archive.namelist()
     assert {name.split("/")[0].split("-")[0] for name in names} == {"skinglow"}
     third_party = {Path(name).stem for name in names if re.search("/licenses/third_party/.", name)}
-    assert third_party == {"embree", "pybind11", "glm", "eigen"}
+    assert third_party == {"embree", "pybind11", "glm", "eigen", "nlohmann_json"}
 
 
 def test_zips_hold_the_addon_and_no_leftovers() -> None:
@@ -172,7 +172,7 @@ def test_installed_by_blender_and_used_without_the_project(host: Host, tmp_path:
     np.testing.assert_allclose(found["thickness_mm"], 20.0, rtol=0.03)
     np.testing.assert_allclose(found["shown"], found["expected"], rtol=1e-6)
     assert found["shown"][0] != found["shown"][1]
-    for (kind, text), argument in zip(found["refused"], ("triangles", "distance"), strict=True):
+    for (kind, text), argument in zip(found["refused"], ("triangles", "distance", "rig.json"), strict=True):
         assert kind == "ValueError" and argument in text, f"{kind}: {text}"
     assert 0.0 < found["render"] < 100.0
     assert found["warnings"] == {}

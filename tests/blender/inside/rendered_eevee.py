@@ -5,7 +5,7 @@ import numpy as np
 import skinglow_blender as sb
 
 from inside.rendered_frames import assert_frames, render_animation, scene_with_moving_lamp
-from inside.scenes import black_material, camera_above, grey, lamp, patch, read_exr, render_settings
+from inside.scenes import BLOOD, black_material, camera_above, grey, lamp, patch, read_exr, render_settings
 
 
 def check_animation_in_eevee(work):
@@ -57,3 +57,18 @@ def check_engines_agree(work):
     assert pictures[0].max() > 0.5
     assert rms <= 1 / 255, rms
     return rms
+
+
+def check_batch_of_rigs(work):
+    """Rig after rig in one process, the first one twice: each picture shows its own lookup."""
+    colors = {"red": (1.0, 0.2, 0.0), "blue": (0.0, 0.2, 1.0)}
+    for name, color in colors.items():
+        lamp(name, color=color)
+    sb.make_skin(patch(material=black_material()), thickness=[0.0] * 4)
+    camera_above()
+    render_settings(4, 4, "EEVEE")
+    result = sb.render_batch(work / "batch", 1, {"first": "red", "second": "blue", "third": "red"})
+    assert len(result.rendered) == 3, result
+    for path, lit in zip(result.rendered, ("red", "blue", "red"), strict=True):
+        expected = grey()[0] * (BLOOD + np.array(colors[lit]) / 2.0)
+        np.testing.assert_allclose(read_exr(path)[2, 2], expected, rtol=2e-3, err_msg=str(path))

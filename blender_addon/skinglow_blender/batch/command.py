@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The batch from a command line: `blender -b scene.blend --python-expr ...` and `blender --command skinglow ...`."""
+
+import argparse
+import signal
+import sys
+import threading
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import NoReturn
+
+import bpy
+
+from ..errors import SkinError
+from .pictures import PATTERN
+from .render import BatchStep, render_batch
+
+#: Exit codes: as asked; some pictures failed, the others are done; bad arguments, nothing done; stopped by Ctrl-C.
+DONE, SOME_FAILED, BAD_ARGUMENTS, STOPPED = 0, 1, 2, 130
+
+USAGE = """
+  blender -b scene.blend --python-expr "import skinglow_blender as sb; sb.batch_main()" -- [OPTIONS]
+  blender --command skinglow --blend scene.blend [OPTIONS]                      (Blender 4.2 and later)"""
+EXAMPLES = """examples of OPTIONS:
+  --frames 1-10,15 --rigs Sunset Neon --out //batch
+  --frames 1-100x5 --rigs "day=Key,Fill" noon.json --onto Head
+exit code: 0 all pictures are there; 1 some failed, the others are there; 2 nothing could begin; 130 stopped by Ctrl-C
+The same command again renders only what is missing or out of date."""
+
+
+def parser() -> argparse.ArgumentParser:
+    """The options; --help tells each."""
+    found = argparse.ArgumentParser(
+        prog="skinglow",
+        usage=USAGE,
+        description="Renders frames x light rigs of a scene whose skins glow, with a manifest of each picture.",
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = found.add_argument
+    add("--blend", type=Path, metavar="FILE", help="the scene's file, where Blender was started without one")
+    add("--scene", metavar="NAME", help="scene of the file (default: the one it was saved with)")
+    add("--frames", metavar="RANGES", help='such as 1-10,15 or 1-100x5 (default: the scene\'s range); "--frames=-5-3"')
+    add(
+        "--rigs",
+        nargs="+",
+        metavar="RIG",
+        help="each a lamp or a collection of lamps by name, NAME=LAMP,LAMP, or a rig file (.json, .sl) "
+        "(default: the lamps as they are, as one rig 'scene')",
+    )
+    add("--out", default="//batch", metavar="FOLDER", help="default //batch: beside the blend file")
+    add("--pattern", default=PATTERN, help=f"of the file names, default {PATTERN}".replace("%", "%%"))
+    add("--onto", metavar="SKIN", help="put the point of rig files onto this object's reference point")
+    add("--again", action="store_true", help="render also what is there and up to date")
+    add("--worker", default="", metavar="NAME", help="of a farm: write a manifest of its own, manifest-NAME.jsonl")
+    return found
+
+
+def run(arguments: Sequence[str]) -> int:
+    """What the command line asks for; returns the exit code and raises nothing but for faults of Blender itself."""
+    try:
+        options = parser().parse_args(list(arguments))
+    except SystemExit as end:  # argparse has said what is wrong, or shown its help
+        return end.code if isinstance(end.code, int) else BAD_ARGUMENTS
+    try:
+        with _stopping_after_a_picture() as progress:
+            _open(options.blend)
+            scene = _named(bpy.data.scenes, options.scene, "scene") or bpy.context.scene
+            if options.out.startswith("//") and not bpy.data.filepath:
+                raise SkinError("--out: the scene was not saved, so that there is no folder beside it: give a folder")
+            result = render_batch(
+                options.out,
+                options.frames,
+                options.rigs,
+                scene=scene,
+                pattern=options.pattern,
+                resume=not options.again,
+                onto=_named(scene.objects, options.onto, "object"),
+                worker=options.worker,
+                progress=progress,
+            )
+    except SkinError as error:
+        _say(f"skinglow: {error}")
+        return BAD_ARGUMENTS
+    except KeyboardInterrupt:
+        _say("skinglow: stopped; the same command goes on from here")
+        return STOPPED
+    counts = f"{len(result.rendered)} rendered, {len(result.kept)} kept, {len(result.failed)} failed"
+    _say(f"skinglow: {counts}; {result.manifest}")
+    return SOME_FAILED if result.failed else DONE
+
+
+def main(arguments: Sequence[str] | None = None) -> NoReturn:
+    """Runs with what stands after `--` on Blender's command line, and ends Blender with the exit code."""
+    if arguments is None:
+        arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
+    code = run(arguments)
+    sys.stdout.flush()
+    raise SystemExit(code)
+
+
+def _open(path: Path | None) -> None:
+    if path is None:
+        return
+    if not path.is_file():
+        raise SkinError(f"--blend: there is no file {path}")
+    try:
+        bpy.ops.wm.open_mainfile(filepath=str(path.absolute()), load_ui=False)
+    except RuntimeError as error:
+        raise SkinError(f"--blend: {' '.join(str(error).split())}") from error
+
+
+def _named(
+    collection: bpy.types.bpy_prop_collection, name: str | None, what: str
+) -> bpy.types.Scene | bpy.types.Object | None:
+    if name is None:
+        return None
+    found = collection.get(name)
+    if found is None:
+        raise SkinError(f"There is no {what} '{name}'; there are: {', '.join(sorted(collection.keys())) or 'none'}")
+    return found
+
+
+@contextmanager
+def _stopping_after_a_picture() -> Iterator["_Progress"]:
+    """Ctrl-C ends the batch after the picture at work. Blender would cancel that render and go on with the next."""
+    progress = _Progress()
+    if threading.current_thread() is not threading.main_thread():
+        yield progress
+        return
+    before = signal.signal(signal.SIGINT, progress.stop)
+    try:
+        yield progress
+    finally:
+        # None: a handler that was not set from Python, Blender's own; Python cannot put that back.
+        signal.signal(signal.SIGINT, signal.SIG_DFL if before is None else before)
+
+
+class _Progress:
+    """A line on standard error for each picture."""
+
+    def __init__(self) -> None:
+        self.stopped = False
+
+    def stop(self, *_signal: object) -> None:
+        self.stopped = True
+
+    def __call__(self, step: BatchStep) -> None:
+        if step.state == "RENDERING":
+            if self.stopped:
+                raise KeyboardInterrupt
+            return
+        what = {
+            "KEPT": "kept",
+            "RENDERED": f"rendered in {step.seconds:.1f} s ({step.reason})",
+            "FAILED": f"FAILED: {step.reason}",
+        }[step.state]
+        left = "" if step.seconds_left is None else f"; {_clock(step.seconds_left)} left"
+        _say(f"[{step.done}/{step.total}] {step.rig}, frame {step.frame}: {what}{left}")
+        if self.stopped and step.done < step.total:
+            raise KeyboardInterrupt
+
+
+def _clock(seconds: float) -> str:
+    minutes, rest = divmod(int(seconds + 0.5), 60)
+    return f"{minutes // 60}:{minutes % 60:02d}:{rest:02d}"
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
+
+
+_command = None
+
+
+def register() -> None:
+    """Makes `blender --command skinglow` known, where Blender has such commands (4.2 and later)."""
+    global _command
+    if hasattr(bpy.utils, "register_cli_command"):
+        _command = bpy.utils.register_cli_command("skinglow", run)
+
+
+def unregister() -> None:
+    """Takes the command back."""
+    global _command
+    if _command is not None:
+        bpy.utils.unregister_cli_command(_command)
+        _command = None

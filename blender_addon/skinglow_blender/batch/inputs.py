@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Digests of what a picture is made from, by which a batch knows that it need not be made again."""
+
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from .. import blender_version
+from ..errors import core
+from ..scene_lights import read_lamp
+from ..skin_settings import SETTING_NAMES
+from .manifest import data_digest, file_digest
+from .rigs import ReadyRig, lamps_of
+
+#: Settings that do not change a picture, or that the batch itself sets.
+NOT_IN_PICTURES = frozenset(
+    "filepath threads threads_mode use_lock_interface use_persistent_data use_overwrite use_placeholder device".split()
+)
+
+
+def scene_inputs(scene: bpy.types.Scene) -> dict[str, str]:
+    """What every picture of a scene depends on, a digest each; the scene stands at a frame that is always the same.
+
+    files     the blend file as saved, its libraries and the images it reads
+    render    settings of rendering, colour management and output, and the camera
+    skins     the settings of every skin
+    programs  versions, in words
+    What was changed in memory alone shows where it is a lamp, a camera, a setting or animation of these; a mesh or
+    a material that was changed has to be saved.
+    """
+    render = [_plain_values(owner) for owner in _render_settings(scene)]
+    camera = scene.camera
+    if camera is not None:
+        render.append([camera.name_full, _numbers(camera.matrix_world), _animation(camera)])
+        render.append([_plain_values(camera.data), _animation(camera.data)])
+    skins = [
+        [obj.name_full, obj.hide_render, _numbers(obj.matrix_world), skin_values(obj), _animation(obj)]
+        for obj in scene.objects
+        if obj.skinglow.enabled
+    ]
+    programs = f"Blender {bpy.app.version_string}, skinglow {core().__version__}"
+    return {
+        "files": data_digest(_files()),
+        "render": data_digest(render),
+        "skins": data_digest(skins),
+        "programs": programs,
+    }
+
+
+def rig_inputs(scene: bpy.types.Scene, ready: ReadyRig, onto: tuple[float, float, float] | None) -> dict[str, str]:
+    """What the pictures of one rig depend on besides: its lamps, its file and where that is put."""
+    lamps = [
+        [
+            read_lamp(obj, obj.matrix_world, obj.name).signature,
+            obj.visible_diffuse,
+            _animation(obj),
+            _animation(obj.data),
+            obj.hide_render if ready.shown is None else None,
+        ]
+        for obj in sorted(lamps_of(scene), key=lambda obj: obj.name)
+        if ready.shown is None or obj.name in ready.shown
+    ]
+    file = file_digest(ready.rig.file) if ready.rig.file is not None else None
+    return {"rig": data_digest([ready.shown, lamps, file, onto if file else None])}
+
+
+def skin_values(obj: bpy.types.Object) -> dict[str, Any]:
+    """A skin's settings by name, as `make_skin` takes them."""
+    return {name: _plain(getattr(obj.skinglow, name)) for name in SETTING_NAMES}
+
+
+def _files() -> list[tuple[str, str]]:
+    """Name and digest of the files that the open one is made of; those that are not there are left out."""
+    paths = {bpy.data.filepath} if bpy.data.filepath else set()
+    paths |= {bpy.path.abspath(library.filepath) for library in bpy.data.libraries}
+    for image in bpy.data.images:
+        if image.source == "FILE" and image.filepath and image.packed_file is None:
+            paths.add(bpy.path.abspath(image.filepath, library=image.library))
+    # By name alone: the machines of a farm may see one folder under several paths.
+    return sorted((path.name, _digest_if_readable(path)) for path in map(Path, paths) if path.is_file())
+
+
+def _digest_if_readable(path: Path) -> str:
+    try:
+        return file_digest(path)
+    except OSError:  # Blender cannot read it either
+        return ""
+
+
+def _render_settings(scene: bpy.types.Scene) -> list[Any]:
+    owners = [scene.render, scene.render.image_settings, scene.view_settings, scene.display_settings]
+    engine = engine_settings(scene)
+    return owners if engine is None else [*owners, engine]
+
+
+def engine_settings(scene: bpy.types.Scene) -> Any:  # noqa: ANN401
+    """The scene's settings of its own render engine; None for engines other than Cycles and EEVEE."""
+    engine = scene.render.engine
+    name = "cycles" if engine == "CYCLES" else "eevee" if engine.startswith("BLENDER_EEVEE") else ""
+    return getattr(scene, name, None)
+
+
+def _plain_values(owner: Any) -> dict[str, Any]:  # noqa: ANN401
+    """The settings of one of Blender's structs that are numbers, texts or names of data."""
+    return {
+        prop.identifier: _plain(getattr(owner, prop.identifier))
+        for prop in owner.bl_rna.properties
+        if prop.type not in ("COLLECTION",)
+        and not (prop.type == "POINTER" and not isinstance(getattr(owner, prop.identifier), bpy.types.ID))
+        and prop.identifier not in NOT_IN_PICTURES
+        and not prop.is_readonly
+    }
+
+
+def _plain(value: Any) -> Any:  # noqa: ANN401
+    if isinstance(value, bpy.types.ID):
+        return value.name_full
+    if isinstance(value, set):
+        return sorted(value)
+    if value is None or isinstance(value, bool | int | float | str):
+        return value
+    return list(value)
+
+
+def _numbers(matrix: Any) -> list[float]:  # noqa: ANN401
+    return [number for row in matrix for number in row]
+
+
+def _animation(owner: bpy.types.ID) -> list[Any]:
+    """The curves that move a data block: keyframes, and the expressions of drivers."""
+    found = []
+    for curve in blender_version.animation_curves(owner):
+        driver = getattr(curve, "driver", None)
+        expression = [driver.type, driver.expression] if driver is not None else None
+        keys = [[*key.co, *key.handle_left, *key.handle_right, key.interpolation] for key in curve.keyframe_points]
+        found.append([curve.data_path, curve.array_index, curve.mute, expression, keys])
+    return found

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rendering the pictures of a batch, one after another, and leaving the scene as it was."""
+
+import os
+import time
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import bpy
+
+from ..errors import SkinError
+from ..live_update import update_scene
+from ..scene_reading import read_skin
+from ..skin import skin_settings_of
+from .frames import parse_frames
+from .inputs import rig_inputs, scene_inputs
+from .manifest import Manifest
+from .one_picture import make_picture
+from .pictures import PATTERN, Picture, plan_pictures, why_not_kept
+from .rigs import ReadyRig, RigLike, as_rigs, lit_by, make_ready
+
+
+class BatchStep(NamedTuple):
+    """What a progress callback is told, before and after each picture that is rendered, and of those kept."""
+
+    state: str  #: 'KEPT', 'RENDERING', 'RENDERED' or 'FAILED'
+    rig: str
+    frame: int
+    file: Path
+    reason: str  #: why it is rendered, or why it failed
+    done: int  #: pictures that are dealt with, kept ones among them
+    total: int
+    seconds: float  #: that this picture took
+    seconds_left: float | None  #: for the rest, by the mean so far; None before the first
+
+
+class BatchResult(NamedTuple):
+    """What became of a batch."""
+
+    rendered: tuple[Path, ...]
+    kept: tuple[Path, ...]  #: there already, whole and up to date
+    failed: tuple[tuple[Path, str], ...]  #: with the reason, in words
+    manifest: Path
+
+
+Progress = Callable[[BatchStep], None]
+
+
+def render_batch(
+    folder: str | os.PathLike,
+    frames: str | int | Iterable[int] | None = None,
+    rigs: RigLike | Iterable[RigLike] | Mapping[str, Any] | None = None,
+    *,
+    scene: bpy.types.Scene | None = None,
+    pattern: str = PATTERN,
+    resume: bool = True,
+    onto: bpy.types.Object | None = None,
+    worker: str = "",
+    progress: Progress | None = None,
+) -> BatchResult:
+    """Renders frames x light rigs into a folder, with a manifest of what each picture was made with (docs/batch.md).
+
+    folder    where pictures and manifest go; "//" is the blend file's folder
+    frames    "1-10,15", "1-100x5", a number or an iterable of them; None: the scene's range
+    rigs      names of lamps or collections, "name=Key,Fill", rig files, or a mapping of names to these (rigs.as_rigs);
+              None: the scene's lamps as they are, named "scene"
+    scene     None: the context's
+    pattern   file name in the folder, of {rig}, {frame} and {scene}; the format's extension is added
+    resume    keep pictures that are there, whole, and were made from the same inputs; False: render all
+    onto      a skin: a rig file's point is put onto its reference point; None: lamps stand where the file says
+    worker    of a farm: names a manifest of its own
+    progress  called with a BatchStep; an exception of its ends the batch, and what is done stays done
+    Lamps, rig files, frames, folder and names are checked before anything is rendered (SkinError). A picture that
+    cannot be made does not stop the others. The scene is as before when this returns or raises.
+    """
+    scene = scene or bpy.context.scene
+    if frames is None:
+        frames = range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
+    frame_list = parse_frames(frames)
+    _check_scene(scene)
+    ready = [make_ready(scene, rig) for rig in as_rigs(rigs)]
+    pictures = plan_pictures(scene, [r.rig.name for r in ready], frame_list, pattern)
+    where = Path(bpy.path.abspath(str(folder))).absolute()
+    manifest = Manifest(where, worker)
+    try:
+        where.mkdir(parents=True, exist_ok=True)
+        manifest.check_writable()
+    except OSError as error:
+        raise SkinError(f"Cannot write to {where}: {error.strerror or error}") from error
+    with ExitStack() as undo:
+        _keep(undo, scene)
+        return _Batch(scene, ready, manifest, onto, progress).run(pictures, resume)
+
+
+def _check_scene(scene: bpy.types.Scene) -> None:
+    if scene.camera is None and not any(marker.camera for marker in scene.timeline_markers):
+        raise SkinError(
+            f"Scene '{scene.name}' has no camera to render with: add one, or set it in the scene's properties"
+        )
+    if not any(obj.type == "MESH" and obj.skinglow.enabled for obj in scene.objects):
+        raise SkinError(f"Scene '{scene.name}' has no skin: make_skin, or the button Make Skin Glow, makes a mesh one")
+
+
+def _keep(undo: ExitStack, scene: bpy.types.Scene) -> None:
+    """Notes what a batch changes of a scene, so that leaving `undo` brings it back."""
+    render = scene.render
+    undo.callback(_show_viewport_again, scene)
+    # Markers bind cameras to frames.
+    undo.callback(setattr, scene, "camera", scene.camera)
+    undo.callback(scene.frame_set, scene.frame_current, subframe=scene.frame_subframe)
+    for name in ("filepath", "use_lock_interface"):
+        undo.callback(setattr, render, name, getattr(render, name))
+    # A window that drew while its data is rendered could crash Blender.
+    render.use_lock_interface = True
+
+
+def _show_viewport_again(scene: bpy.types.Scene) -> None:
+    if scene == bpy.context.scene:
+        update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
+
+
+class _Batch:
+    """What is the same for all pictures of a batch, and what has become of them so far."""
+
+    def __init__(
+        self,
+        scene: bpy.types.Scene,
+        ready: list[ReadyRig],
+        manifest: Manifest,
+        onto: bpy.types.Object | None,
+        progress: Progress | None,
+    ) -> None:
+        self.scene, self.ready, self.manifest, self.progress = scene, ready, manifest, progress
+        self.folder = manifest.folder
+        # Values read below are those of one frame, whatever frame the file stands at.
+        scene.frame_set(scene.frame_start)
+        self.onto = None
+        if onto is not None:
+            skin_settings_of(onto)
+            evaluated = onto.evaluated_get(scene.view_layers[0].depsgraph or bpy.context.evaluated_depsgraph_get())
+            self.onto = read_skin(evaluated, evaluated.matrix_world).point
+        shared = scene_inputs(scene)
+        self.inputs = [{**shared, **rig_inputs(scene, rig, self.onto)} for rig in ready]
+        self.rendered: list[Path] = []
+        self.kept: list[Path] = []
+        self.failed: list[tuple[Path, str]] = []
+        self.seconds = 0.0
+        self.total = 0
+
+    def run(self, pictures: list[Picture], resume: bool) -> BatchResult:
+        self.total = len(pictures)
+        to_do: dict[int, list[tuple[Picture, str]]] = {}
+        entries: dict[str, list[dict[str, Any]]] = {}
+        for entry in self.manifest.entries() if resume else ():
+            entries.setdefault(str(entry.get("file")), []).append(entry)
+        for picture in pictures:
+            why = "asked for again"
+            if resume:
+                inputs = self.inputs[picture.rig]
+                why = why_not_kept(self.folder, picture, entries.get(picture.name, []), inputs)
+            if why:
+                to_do.setdefault(picture.rig, []).append((picture, why))
+            else:
+                self.kept.append(self.folder / picture.name)
+                self.tell("KEPT", picture, "", 0.0)
+        for index, todo in to_do.items():
+            self.run_rig(self.ready[index], todo)
+        return BatchResult(tuple(self.rendered), tuple(self.kept), tuple(self.failed), self.manifest.path)
+
+    def run_rig(self, ready: ReadyRig, to_do: list[tuple[Picture, str]]) -> None:
+        with ExitStack() as undo:
+            notes: list[str] = []
+            fault = ""
+            try:
+                notes = undo.enter_context(lit_by(self.scene, ready, self.onto))
+            except SkinError as error:
+                fault = str(error)
+            for picture, why in to_do:
+                self.tell("RENDERING", picture, why, 0.0)
+                started = time.perf_counter()
+                path = self.folder / picture.name
+                state, reason = "RENDERED", why
+                try:
+                    if fault:
+                        raise SkinError(fault)
+                    name, inputs = picture.name, self.inputs[picture.rig]
+                    entry = make_picture(self.scene, picture.frame, path, ready)
+                    told = {"file": name, "frame": picture.frame, "rig": picture.rig_name, "notes": notes}
+                    self.manifest.append({**told, **entry, "inputs": inputs})
+                    self.rendered.append(path)
+                except (SkinError, ValueError, RuntimeError, OSError) as error:
+                    state, reason = "FAILED", " ".join(str(error).split())
+                    self.failed.append((path, reason))
+                seconds = time.perf_counter() - started
+                self.seconds += seconds
+                self.tell(state, picture, reason, seconds)
+
+    def tell(self, state: str, picture: Picture, reason: str, seconds: float) -> None:
+        if self.progress is None:
+            return
+        made = len(self.rendered) + len(self.failed)
+        done = made + len(self.kept)
+        left = self.seconds / made * (self.total - done) if made else None
+        path = self.folder / picture.name
+        self.progress(BatchStep(state, picture.rig_name, picture.frame, path, reason, done, self.total, seconds, left))

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the skins show while a picture is rendered, read from the render's own depsgraph."""
+
+import hashlib
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import bpy
+import numpy as np
+
+from .. import light_listing, skin
+from ..errors import SkinError
+from ..live_update import STATE
+from ..scene_reading import read_scene, read_skin
+from .inputs import skin_values
+
+
+class Shown:
+    """Of one picture."""
+
+    def __init__(self) -> None:
+        self.skins: list[dict[str, Any]] = []  #: for the manifest, one for each skin and view layer
+        self.lamps: set[str] = set()  #: names of the lamps that took part
+        self.faults: list[str] = []
+
+
+@contextmanager
+def watching(scene: bpy.types.Scene) -> Iterator[Shown]:
+    """While it lasts, a render of that scene leaves what its skins show.
+
+    The depsgraph that is handed to frame_change_post is the render's own; once for each view layer, and besides for
+    each step of motion blur, which show nothing of their own.
+    """
+    shown = Shown()
+
+    def watch(rendered: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+        if rendered.name != scene.name or depsgraph.mode != "RENDER":
+            return
+        if STATE.render_frame not in (None, rendered.frame_current_final):
+            return
+        try:
+            _note(shown, depsgraph)
+        except (SkinError, ValueError) as error:
+            shown.faults.append(str(error))
+        except Exception as error:  # noqa: BLE001  Blender would swallow it
+            shown.faults.append(f"Unexpected: {type(error).__name__}: {error}")
+            traceback.print_exc()
+
+    # The add-on's own handler stands before this one and has brought the lookups up to date.
+    bpy.app.handlers.frame_change_post.append(watch)
+    try:
+        yield shown
+    finally:
+        bpy.app.handlers.frame_change_post.remove(watch)
+
+
+def _note(shown: Shown, depsgraph: bpy.types.Depsgraph) -> None:
+    reading = read_scene(depsgraph)
+    shown.faults += STATE.faults.values()
+    shown.lamps.update(lamp.name for lamp in reading.lamps)
+    for obj, _skin in reading.skins:
+        shown.skins.append(_skin_entry(obj, depsgraph))
+
+
+def _skin_entry(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> dict[str, Any]:
+    evaluated = obj.evaluated_get(depsgraph)
+    seen = read_skin(evaluated, evaluated.matrix_world)
+    table = skin.lut(obj, depsgraph)
+    report = light_listing.light_report(obj, depsgraph)
+    return {
+        "name": obj.name_full,
+        "view_layer": depsgraph.view_layer.name,
+        "mode": seen.mode,
+        "weights": skin.choice_of(obj, depsgraph).weights,
+        "live": seen.live,
+        "point": list(seen.point),
+        # L of Eq. 3 in modes existing and paper; E, W/m^2, in mode physical.
+        "weight": [float(value) for value in np.sum([row["weight"] for row in report], axis=0)]
+        if report
+        else [0.0] * 3,
+        "settings": skin_values(evaluated),
+        "lookup": {
+            "sha256": hashlib.sha256(np.ascontiguousarray(table, "<f4").tobytes()).hexdigest(),
+            "entries": len(table),
+            "max_thickness_mm": seen.base[2],
+        },
+        "lamps": [_lamp_entry(row) for row in report],
+    }
+
+
+def _lamp_entry(row: dict[str, Any]) -> dict[str, Any]:
+    distance = row["distance"]
+    return {
+        "name": row["name"],
+        "kind": row["kind"],
+        "weight": [float(value) for value in row["weight"]],
+        "share": float(row["share"]),
+        "distance": None if distance is None else float(distance),
+        "reason": row["reason"],
+        "note": row["note"],
+    }

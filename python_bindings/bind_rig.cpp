@@ -1,0 +1,78 @@
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "argument_check.h"
+#include "io/file_error.h"
+#include "io/light_rig.h"
+#include "io/studio_light.h"
+#include "numpy_conversion.h"
+
+namespace py = pybind11;
+using namespace py::literals;
+using namespace skinglow;
+
+namespace {
+
+/// A rig, and what of a studio light could not be taken over.
+struct FoundRig {
+    LightRig rig;
+    std::vector<std::string> notes;
+};
+
+FoundRig read_any(const std::filesystem::path& path, py::handle camera_rotation) {
+    const bool studio_light = small_extension(path) == ".sl";
+    if (!camera_rotation.is_none() && !studio_light) {
+        refuse_argument("camera_rotation", "given for " + path.string(),
+                        "it with a studio light (*.sl) only");
+    }
+    try {
+        if (!studio_light) return {read_light_rig(path), {}};
+        const glm::dmat3 camera = camera_rotation.is_none()
+                                      ? front_view
+                                      : camera_axes(numpy::to_vec3(camera_rotation, "camera_rotation"));
+        StudioLight studio = read_studio_light(path, camera);
+        LightRig rig;
+        rig.name = path.stem().string();
+        rig.lights = std::move(studio.lights);
+        return {std::move(rig), std::move(studio.notes)};
+    } catch (const FileError& error) {
+        throw py::value_error(error.what());
+    }
+}
+
+}  // namespace
+
+void bind_rig(py::module_& m) {
+    py::class_<FoundRig>(m, "LightRig", R"(Lamps around a point of skin, as `read_light_rig` found them.
+
+name          of the rig; "" where the file gives none
+point         (3,) where distances are measured from, world
+coefficients  (3,) constant, linear and quadratic of Eq. 2
+blood_weight  (3,) B of Eq. 1
+lights        [Light]
+notes         [str] what the file holds and no lamp can: a studio light's ambient light, soft wrap, highlights)")
+        .def_property_readonly("name", [](const FoundRig& self) { return self.rig.name; })
+        .def_property_readonly("point", [](const FoundRig& self) { return numpy::from_vec3(self.rig.point); })
+        .def_property_readonly("coefficients",
+                               [](const FoundRig& self) {
+                                   const AttenuationCoefficients& k = self.rig.coefficients;
+                                   return numpy::from_vec3({k.constant, k.linear, k.quadratic});
+                               })
+        .def_property_readonly("blood_weight",
+                               [](const FoundRig& self) { return numpy::from_vec3(self.rig.blood_weight); })
+        .def_property_readonly("lights", [](const FoundRig& self) { return self.rig.lights; })
+        .def_readonly("notes", &FoundRig::notes);
+
+    m.def(
+        "read_light_rig", &read_any, "path"_a, "camera_rotation"_a = py::none(),
+        R"(Reads a light rig: a rig file (JSON, docs/rig_format.md) or one of Blender's studio lights (*.sl).
+
+camera_rotation  (3,) for *.sl: Blender rotation (XYZ Euler, radians) of the camera that its lights hang on; None:
+                 Blender's front view, (pi/2, 0, 0)
+Strict: raises ValueError naming file, key and line on anything that the format does not allow.)");
+}

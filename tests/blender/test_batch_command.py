@@ -1,0 +1,181 @@
+"""The batch as a program: `blender -b scene.blend --python-expr ...`, its exit codes and what it says."""
+
+import json
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from hosts import ADDON_FOLDER, HERE, HOSTS, hosts_here
+
+SECONDS = 120
+#: Makes and saves a scene: two lamps, a skin, a camera.
+SCENE = """
+import bpy
+from inside.scenes import black_material, camera_above, lamp, patch, render_settings
+import skinglow_blender as sb
+bpy.ops.wm.read_factory_settings(use_empty=True)
+lamp("Key", color=(1.0, 0.0, 0.0))
+lamp("Fill", color=(0.0, 0.0, 1.0))
+sb.make_skin(patch(material=black_material()), thickness=[0.0] * 4)
+camera_above()
+scene = render_settings(4, 4)
+scene.frame_end = 4
+bpy.ops.wm.save_as_mainfile(filepath={blend!r})
+"""
+
+
+class Program:
+    """The full Blender program with a scene of its own."""
+
+    def __init__(self, folder: Path) -> None:
+        self.host = HOSTS["3.4"]
+        assert self.host.path, f"Blender {self.host.name} is not there: {self.host.variable} does not say where it is"
+        self.environment = self.host.environment(folder)
+        self.blend = folder / "scene.blend"
+        done = self.run([], SCENE.format(blend=str(self.blend)), factory=True)
+        assert self.blend.exists(), done.stdout + done.stderr
+
+    def command(self, arguments: list[str], text: str, factory: bool = False) -> list[str]:
+        paths = f"import sys; sys.path[:0] = [{str(ADDON_FOLDER)!r}, {str(HERE)!r}]"
+        paths += f"; sys.path.append({self.environment['SKINGLOW_SITE']!r})"
+        file = [] if factory else [str(self.blend)]
+        start = [self.host.path, "-b", "--factory-startup", *file, "--python-expr"]
+        return [*start, f"{paths}\n{text}", "--", *arguments]
+
+    def run(self, arguments: list[str], text: str = "", factory: bool = False) -> subprocess.CompletedProcess[str]:
+        text = text or "import skinglow_blender as sb; sb.batch_main()"
+        command = self.command(arguments, text, factory)
+        return subprocess.run(command, env=self.environment, capture_output=True, text=True, timeout=SECONDS)
+
+
+@pytest.fixture(scope="module")
+def program(tmp_path_factory: pytest.TempPathFactory) -> Program:
+    return Program(tmp_path_factory.mktemp("batch"))
+
+
+def manifest(folder: Path) -> list[dict]:
+    return [json.loads(line) for line in (folder / "manifest.jsonl").read_text().splitlines()]
+
+
+def test_pictures_progress_and_resume(program: Program, tmp_path: Path) -> None:
+    options = ["--rigs", "Key", "both=Key,Fill", "--frames", "1-2", "--out", str(tmp_path)]
+    first = program.run(options)
+    assert first.returncode == 0, first.stdout + first.stderr
+    assert {(e["rig"], e["frame"]) for e in manifest(tmp_path)} == {("Key", 1), ("Key", 2), ("both", 1), ("both", 2)}
+    told = [line for line in first.stderr.splitlines() if line.startswith("[")]
+    assert [line.split("]")[0] for line in told] == ["[1/4", "[2/4", "[3/4", "[4/4"]
+    assert told[0].startswith("[1/4] Key, frame 1: rendered in ") and told[0].endswith(" left")
+    assert "4 rendered, 0 kept, 0 failed" in first.stderr
+    (tmp_path / "both" / "0002.exr").unlink()
+    again = program.run(options)
+    assert again.returncode == 0, again.stdout + again.stderr
+    assert "1 rendered, 3 kept, 0 failed" in again.stderr and "its file is gone" in again.stderr
+    assert len(manifest(tmp_path)) == 5
+
+
+def test_by_default_beside_the_file_as_the_scene_has_it(program: Program) -> None:
+    done = program.run([])
+    assert done.returncode == 0, done.stdout + done.stderr
+    folder = program.blend.parent / "batch"
+    assert sorted(p.name for p in (folder / "scene").iterdir()) == [f"{n:04d}.exr" for n in range(1, 5)]
+    (skin,) = manifest(folder)[0]["skins"]
+    assert {row["name"] for row in skin["lamps"] if row["share"] > 0.0} == {"Key", "Fill"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["--rigs", "Nothing"], "'Nothing' is neither a lamp nor a collection of lamps"),
+        (["--frames", "9-1"], "runs backwards: write 1-9"),
+        (["--out", "/proc/nothing"], "Cannot write to /proc/nothing"),
+        (["--scene", "Nothing"], "There is no scene 'Nothing'"),
+        (["--speed", "9"], "unrecognized arguments: --speed 9"),
+    ],
+)
+def test_bad_arguments(program: Program, arguments: list[str], told: str) -> None:
+    done = program.run(arguments)
+    assert done.returncode == 2 and told in done.stderr, done.stdout + done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_help(program: Program) -> None:
+    done = program.run(["--help"])
+    assert done.returncode == 0
+    assert "--rigs RIG [RIG ...]" in done.stdout and "exit code" in done.stdout
+
+
+def test_one_that_fails_leaves_the_others(program: Program, tmp_path: Path) -> None:
+    text = "import bpy, skinglow_blender as sb\n"
+    text += "off = bpy.data.collections.new('Off'); bpy.context.scene.collection.children.link(off)\n"
+    text += "fill = bpy.data.objects['Fill']; bpy.context.scene.collection.objects.unlink(fill)\n"
+    text += "off.objects.link(fill); off.hide_render = True\nsb.batch_main()"
+    done = program.run(["--rigs", "Fill", "Key", "--frames", "1", "--out", str(tmp_path)], text)
+    assert done.returncode == 1, done.stdout + done.stderr
+    assert "Fill, frame 1: FAILED: lamp 'Fill' of the rig is not in the render" in done.stderr
+    assert [e["rig"] for e in manifest(tmp_path)] == ["Key"]
+
+
+def test_ctrl_c_ends_after_a_whole_picture(program: Program, tmp_path: Path) -> None:
+    options = ["--frames", "1-500", "--rigs", "Key", "--out", str(tmp_path)]
+    command = program.command(options, "import skinglow_blender as sb; sb.batch_main()")
+    with (tmp_path / "told.txt").open("w+") as log:
+        running = subprocess.Popen(command, env=program.environment, stdout=subprocess.DEVNULL, stderr=log)
+        try:
+            until = time.monotonic() + SECONDS
+            while not list(tmp_path.glob("Key/*.exr")):
+                assert running.poll() is None and time.monotonic() < until, (tmp_path / "told.txt").read_text()
+                time.sleep(0.05)
+            running.send_signal(signal.SIGINT)
+            assert running.wait(SECONDS) == 130
+        finally:
+            running.kill()
+            running.wait()
+    assert "the same command goes on from here" in (tmp_path / "told.txt").read_text()
+    entries = manifest(tmp_path)
+    assert 1 <= len(entries) < 500
+    assert {e["file"] for e in entries} == {f"Key/{p.name}" for p in (tmp_path / "Key").iterdir()}
+
+
+def test_workers_share_a_folder(program: Program, tmp_path: Path) -> None:
+    """Two processes at once, a range each, one manifest."""
+    text = "import skinglow_blender as sb; sb.batch_main()"
+    running = [
+        subprocess.Popen(
+            program.command(["--frames", frames, "--rigs", "Key", "Fill", "--out", str(tmp_path)], text),
+            env=program.environment,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        for frames in ("1-2", "3-4")
+    ]
+    for worker in running:
+        _out, told = worker.communicate(timeout=SECONDS)
+        assert worker.returncode == 0, told
+    assert sorted(e["file"] for e in manifest(tmp_path)) == [
+        f"{r}/000{f}.exr" for r in ("Fill", "Key") for f in range(1, 5)
+    ]
+    assert "8 kept" in program.run(["--rigs", "Key", "Fill", "--out", str(tmp_path)]).stderr
+
+
+@pytest.mark.parametrize("host", [h for h in hosts_here() if not h.is_program], ids=lambda host: host.name)
+def test_process_of_a_wheel_ends_with_the_exit_code(host, tmp_path: Path) -> None:
+    """In a bpy wheel there is no program: a script calls the command."""
+    script = tmp_path / "batch_script.py"
+    paths = f"import os, sys\nsys.path[:0] = [{str(ADDON_FOLDER)!r}, {str(HERE)!r}]\n"
+    scene = SCENE.format(blend=str(tmp_path / "scene.blend"))
+    call = "code = 9\ntry:\n    sb.batch_main(sys.argv[1:])\nexcept SystemExit as end:\n    code = end.code\n"
+    script.write_text(f"{paths}{scene}{call}sys.stderr.flush()\nos._exit(code)\n")
+    for rigs, wanted in (("Key", 0), ("Nothing", 2)):
+        arguments = ["--rigs", rigs, "--frames", "1", "--out", str(tmp_path / "out")]
+        done = subprocess.run(
+            [host.path, str(script), *arguments],
+            env=host.environment(tmp_path),
+            capture_output=True,
+            text=True,
+            timeout=SECONDS,
+        )
+        assert done.returncode == wanted, done.stdout + done.stderr
+    assert (tmp_path / "out" / "Key" / "0001.exr").exists()
