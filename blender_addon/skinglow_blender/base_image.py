@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 from mathutils import Color
 
+from . import working_space
 from .errors import SkinError, core
 
 #: Rec.709 luminance (ITU-R BT.709-6, item 3.2 of part 1).
@@ -38,12 +39,16 @@ def base_of_image(key: tuple) -> Any:  # noqa: ANN401  a skinglow.BaseLut
     pixels = pixels.reshape(height, width, channels)
     colors = np.repeat(pixels[:, :, :1], 3, axis=2) if channels < 3 else pixels[:, :, :3]
     if not image.is_float and not image.colorspace_settings.is_data:
-        # Bytes as they are in the file; of floats Blender has made linear ones.
+        # Bytes as they are in the file; of floats Blender has made linear ones, in the file's working space.
         colors = _linear_of_bytes()[np.rint(colors * 255.0).astype(np.intp)]
+    elif not image.colorspace_settings.is_data:
+        colors = working_space.to_rec709(colors)
     return core().BaseLut(brightness(colors.astype(np.float64).mean(axis=0)), max_thickness_mm)
 
 
 @lru_cache(maxsize=1)
 def _linear_of_bytes() -> np.ndarray:
-    values = [Color((i / 255.0,) * 3).from_srgb_to_scene_linear().r for i in range(256)]
+    values = [
+        Color((i / 255.0,) * 3).from_srgb_to_scene_linear().from_scene_linear_to_rec709_linear().g for i in range(256)
+    ]
     return np.array(values)

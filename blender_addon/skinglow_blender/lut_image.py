@@ -9,6 +9,7 @@ and coming back from a render shows the viewport's again without computing anyth
 import bpy
 import numpy as np
 
+from . import working_space
 from .errors import SkinError
 
 FIRST_ROWS = 16
@@ -116,6 +117,7 @@ class Atlas:
         width, height = pair[0].size
         self.pixels = np.zeros((height, width, 4), np.float32)
         self.pixels[:, :, 3] = 1.0
+        self.space = working_space.working_space()
         self.signatures: dict[str, tuple] = {}
         self.rows: dict[str, int] = {}
         self.sizes: dict[str, int] = {}
@@ -125,13 +127,14 @@ class Atlas:
         self.was_shown = True
 
     def fits(self, group: bpy.types.NodeTree) -> bool:
-        """Whether the images still have the size that this was made for."""
+        """Whether the images still have the size, and the file the working space, that this was made for."""
         width, height = image_pair(group, self.mode)[0].size
-        return self.pixels.shape[:2] == (height, width)
+        return self.pixels.shape[:2] == (height, width) and self.space == working_space.working_space()
 
     def put(self, row: int, colors: np.ndarray) -> None:
         """Takes a table into its row; the last entry goes on to the image's edge."""
         size = len(colors)
+        colors = working_space.from_rec709(colors)
         self.pixels[row, :size, :3] = colors
         self.pixels[row, size:, :3] = colors[-1]
 
@@ -153,8 +156,8 @@ class Atlas:
 
 
 def read_row(image: bpy.types.Image, row: int, size: int) -> np.ndarray:
-    """The first `size` colours of a row, (size, 3) float32, as they are in the image."""
+    """The first `size` colours of a row, (size, 3) float32, linear Rec.709."""
     width, height = image.size
     pixels = np.empty(width * height * 4, np.float32)
     image.pixels.foreach_get(pixels)
-    return pixels.reshape(height, width, 4)[row, :size, :3].copy()
+    return working_space.to_rec709(pixels.reshape(height, width, 4)[row, :size, :3].copy())

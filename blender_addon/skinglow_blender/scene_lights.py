@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import bpy
 from mathutils import Matrix
 
-from . import blender_version
+from . import blender_version, working_space
 from .errors import core
 from .light_nodes import node_factor
 
@@ -47,6 +47,7 @@ def read_lamp(obj: bpy.types.Object, matrix: Matrix, name: str) -> Lamp:
     tint = blender_version.light_temperature_color(light)
     if tint is not None:
         color = tuple(a * b for a, b in zip(color, tint, strict=True))
+    color, outside = working_space.lamp_color(color)
     stops = blender_version.light_exposure(light)
     if stops != 0.0:
         power *= core().exposure_factor(stops)
@@ -58,7 +59,7 @@ def read_lamp(obj: bpy.types.Object, matrix: Matrix, name: str) -> Lamp:
     normalized = blender_version.light_is_normalized(light)
     signature = (name, kind, color, power, (where[0], where[1], where[2]), direction, shape, normalized)
     receivers, excluded = _linked_objects(obj)
-    return Lamp(name, signature, receivers, excluded, _why_dark(obj, kind, direction), note)
+    return Lamp(name, signature, receivers, excluded, _why_dark(obj, kind, direction), note or outside)
 
 
 def make_light(lamp: Lamp) -> Any:  # noqa: ANN401  a skinglow.Light

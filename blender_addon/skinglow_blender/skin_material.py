@@ -2,8 +2,9 @@
 """The node group that turns thickness into light coming through, and its place in a skin's materials."""
 
 import bpy
+import numpy as np
 
-from . import blender_version
+from . import blender_version, working_space
 from .errors import SkinError
 from .lut_image import GROUP_PROPERTY, NODE_NAMES, ensure_images, is_skin_group, skin_groups
 from .scene_reading import ROW_PROPERTY
@@ -13,7 +14,7 @@ THICKNESS_ATTRIBUTE = "skinglow_thickness"
 
 #: A light skin, linear Rec.709, for objects without a material: the light skin patch of the ColorChecker chart
 #: (sRGB 194, 150, 130; X-Rite's published values).
-PLAIN_SKIN_COLOR = (0.5395, 0.3050, 0.2232, 1.0)
+PLAIN_SKIN_COLOR = (0.5395, 0.3050, 0.2232)
 PLAIN_SKIN_ROUGHNESS = 0.45
 
 
@@ -180,7 +181,8 @@ def _plain_skin(obj: bpy.types.Object) -> bpy.types.Material:
         raise SkinError(f"'{obj.name}' has no material, and its mesh belongs to a library: give it one there")
     material = bpy.data.materials.new("Skin")
     tree = blender_version.ensure_shader_tree(material)
-    _color_principled(tree, PLAIN_SKIN_COLOR, PLAIN_SKIN_ROUGHNESS)
+    color = working_space.from_rec709(np.array(PLAIN_SKIN_COLOR))
+    _color_principled(tree, (*color, 1.0), PLAIN_SKIN_ROUGHNESS)
     if obj.material_slots:
         obj.material_slots[0].material = material
     else:
