@@ -119,8 +119,9 @@ def look_again() -> None:
         return
     try:
         for window in bpy.context.window_manager.windows:
-            if window.view_layer.depsgraph is not None:
-                update_scene(window.view_layer.depsgraph, only_live=True)
+            # A layer that was not shown before may not have been evaluated yet.
+            window.view_layer.update()
+            update_scene(window.view_layer.depsgraph, only_live=True)
     except (SkinError, ValueError) as error:
         STATE.faults["*"] = str(error)
 

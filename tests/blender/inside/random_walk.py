@@ -170,7 +170,7 @@ class Walk:
             self.window().view_layer = self.pick(list(bpy.context.scene.view_layers))
 
     def others_are_broken(self):
-        """Blender 3.4 leaves the graphs of layers that are not shown with pointers to what undo replaced, and crashes."""
+        """Undo leaves Blender 3.4's graphs of layers that are not shown with dangling pointers, and it crashes."""
         return self.undone and EARLY
 
     def switch_scene(self):
