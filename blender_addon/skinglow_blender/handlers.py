@@ -12,7 +12,6 @@ from .errors import SkinError
 from .group_following import follow_materials, may_change_groups, remove_orphans
 from .live_update import STATE, update_scene
 from .lut_image import images_of, skin_groups
-from .window_watch import stop, watch
 
 #: Changes of these alone cannot change a lamp or a skin's place.
 HARMLESS = frozenset(("Material", "Image", "Texture", "Brush", "Text", "Action", "World", "Screen", "WindowManager"))
@@ -119,9 +118,8 @@ def look_again() -> None:
         return
     try:
         for window in bpy.context.window_manager.windows:
-            # A layer that was not shown before may not have been evaluated yet.
-            window.view_layer.update()
-            update_scene(window.view_layer.depsgraph, only_live=True)
+            if window.view_layer.depsgraph is not None:
+                update_scene(window.view_layer.depsgraph, only_live=True)
     except (SkinError, ValueError) as error:
         STATE.faults["*"] = str(error)
 
@@ -133,7 +131,6 @@ def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
     if bpy.context.view_layer is not None and any(obj.skinglow.enabled for obj in bpy.data.objects):
         update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
     remove_orphans()
-    watch(look_again_soon)
 
 
 def forget_all() -> None:
@@ -177,12 +174,10 @@ def register() -> None:
     """Asks Blender for its calls."""
     for event, handler in HANDLERS:
         getattr(bpy.app.handlers, event).append(handler)
-    watch(look_again_soon)
 
 
 def unregister() -> None:
     """Takes them back."""
-    stop()
     for event, handler in HANDLERS:
         handlers = getattr(bpy.app.handlers, event)
         if handler in handlers:

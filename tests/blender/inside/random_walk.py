@@ -416,7 +416,7 @@ def check_random_walk(work):
             graph = depsgraph()
             # Lamps that Blender moves after its report (handlers.py): a window looks again, here the script does.
             again = sb.update(graph)
-            # Blender reports no change of view layer or scene at all; there, too, a window looks again.
+            # Without a window Blender reports no change of view layer or scene (test_in_window.py has one).
             if not done[-1].startswith("switch"):
                 late += bool(again)
                 assert all(" in " in rebuilt.why for rebuilt in again), [rebuilt.why for rebuilt in again]
