@@ -28,19 +28,33 @@ install_packages() {
     fi
 }
 
-# find_python 3.11: an interpreter of that version that can make virtual environments and has its C headers, from PATH or
-# pyenv.
+# find_python 3.11: an interpreter of that version that can make virtual environments and has its C headers, from PATH,
+# pyenv or fetch_python.
 find_python() {
     local candidate check="import ensurepip, os, sys, sysconfig, venv
 header = os.path.join(sysconfig.get_path('include'), 'Python.h')
 sys.exit('%d.%d' % sys.version_info[:2] != '$1' or not os.path.exists(header))"
-    for candidate in "python$1" python3 /usr/bin/python3 "${PYENV_ROOT:-$HOME/.pyenv}"/versions/"$1".*/bin/python3; do
+    for candidate in "python$1" python3 /usr/bin/python3 "${PYENV_ROOT:-$HOME/.pyenv}"/versions/"$1".*/bin/python3 \
+        "$project"/build/pythons/cpython-"$1".*/bin/python3; do
         if "$candidate" -c "$check" 2>/dev/null; then
             command -v "$candidate"
             return
         fi
     done
     return 1
+}
+
+# fetch_python 3.13 PYTHON: a Python that the system does not bring, by uv, which PYTHON gets from PyPI; in build/pythons.
+fetch_python() {
+    if find_python "$1" >/dev/null; then return; fi
+    make_environment uv "$2" 'uv>=0.8,<1'
+    say "fetching Python $1"
+    mkdir -p "$project/build"
+    UV_PYTHON_INSTALL_DIR=$project/build/pythons "$envs/uv/bin/uv" python install --no-bin "$1" \
+        >"$project/build/python_$1.log" 2>&1 && find_python "$1" >/dev/null || {
+        tail -n 5 "$project/build/python_$1.log" >&2
+        fail "Python $1 is needed, none is on PATH or in pyenv, and uv could not fetch one; install it (pyenv install $1)"
+    }
 }
 
 # make_environment NAME PYTHON REQUIREMENT...: a virtual environment of that name, made again when its list changes.

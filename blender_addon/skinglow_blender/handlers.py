@@ -10,6 +10,7 @@ from bpy.app.handlers import persistent
 
 from . import occlusion, world_image
 from .errors import SkinError
+from .group_following import follow_materials, may_change_groups, remove_orphans
 from .live_update import STATE, update_scene
 from .lut_image import images_of, skin_groups
 
@@ -33,9 +34,24 @@ def guarded(function: Callable[..., None]) -> Callable[..., None]:
     return persistent(handler)
 
 
+def is_shown(depsgraph: bpy.types.Depsgraph) -> bool:
+    """Whether a depsgraph is a render's, or that of a view layer which a window shows.
+
+    `frame_set` evaluates all view layers of the scene; the viewport's lookup is that of the layer in view.
+    """
+    if depsgraph.mode == "RENDER":
+        return True
+    layers = [window.view_layer for window in bpy.context.window_manager.windows] or [bpy.context.view_layer]
+    return depsgraph.view_layer in layers
+
+
 @guarded
 def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Something was edited."""
+    if not is_shown(depsgraph):
+        return
+    if any(may_change_groups(update) for update in depsgraph.updates):
+        follow_materials()
     images_changed = _forget_changed_images(depsgraph)
     kinds = [type(update.id).__name__ for update in depsgraph.updates]
     # Blender 3.4 reports changes of an image without saying of what.
@@ -61,7 +77,8 @@ def on_frame_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> N
         # A step of motion blur. The picture is that of the frame itself; writing now would spoil it, as the
         # renderer may not have read the frame's image yet.
         return
-    update_scene(depsgraph, only_live=True)
+    if is_shown(depsgraph):
+        update_scene(depsgraph, only_live=True)
 
 
 @guarded
@@ -127,6 +144,7 @@ def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
     forget_all()
     if bpy.context.view_layer is not None and any(obj.skinglow.enabled for obj in bpy.data.objects):
         update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
+    remove_orphans()
 
 
 def forget_all() -> None:

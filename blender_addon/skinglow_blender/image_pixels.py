@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Blender image's pixels in linear light."""
+"""A Blender image's pixels in linear Rec.709."""
 
 from functools import lru_cache
 
@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 from mathutils import Color
 
+from . import working_space
 from .errors import SkinError
 
 #: Names of colour spaces whose bytes are linear light already, in Blender's own configurations from 3.4 to 5.2.
@@ -30,7 +31,11 @@ def linear_pixels(image: bpy.types.Image) -> np.ndarray:
         for start in range(0, len(pixels), DECODED_AT_ONCE):
             part = pixels[start : start + DECODED_AT_ONCE]
             np.take(table, np.rint(part * 255.0).astype(np.uint8), out=part)
-    return pixels.reshape(height, width, image.channels)
+    pixels = pixels.reshape(height, width, image.channels)
+    if image.is_float and image.channels > 2 and not image.colorspace_settings.is_data:
+        # Blender has made linear ones of them in the file's working space.
+        pixels[:, :, :3] = working_space.to_rec709(pixels[:, :, :3])
+    return pixels
 
 
 def colorspace_note(image: bpy.types.Image) -> str:
@@ -47,4 +52,5 @@ def _is_coded(image: bpy.types.Image) -> bool:
 
 @lru_cache(maxsize=1)
 def _linear_of_bytes() -> np.ndarray:
-    return np.array([Color((i / 255.0,) * 3).from_srgb_to_scene_linear().r for i in range(256)], np.float32)
+    greys = (Color((i / 255.0,) * 3).from_srgb_to_scene_linear() for i in range(256))
+    return np.array([grey.from_scene_linear_to_rec709_linear().g for grey in greys], np.float32)

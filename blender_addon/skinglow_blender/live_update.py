@@ -6,6 +6,7 @@ from typing import NamedTuple
 import bpy
 import numpy as np
 
+from . import working_space
 from .errors import SkinError
 from .lut_image import Atlas, ensure_images, has_room
 from .lut_layout import layout_of, plain_row, surface_row
@@ -131,12 +132,13 @@ def _compute(
 
 
 def _texels(table: Table, skin: Skin, atlas: Atlas) -> np.ndarray:
-    """A skin's row of the image."""
+    """A skin's row of the image, its colours in the file's own space."""
     if atlas.layout is None:
-        return plain_row(table.colors, atlas.pixels.shape[1])
+        return plain_row(working_space.from_rec709(table.colors), atlas.pixels.shape[1])
     weight = table.weight if table.weight is not None else (1.0, 1.0, 1.0)
     depth_per_mm = skin.surface.depth_per_mm if skin.surface is not None else 0.0
-    return surface_row(table.columns, weight, table.lighting, depth_per_mm, atlas.layout)
+    columns = working_space.from_rec709(table.columns.transpose(0, 2, 1))
+    return surface_row(columns, weight, table.lighting, depth_per_mm, atlas.layout)
 
 
 def _fit_layout(group: bpy.types.NodeTree, atlas: Atlas) -> bool:

@@ -11,6 +11,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from . import working_space
 from .errors import SkinError
 from .lut_layout import LAYOUT_PROPERTY, Layout
 
@@ -138,6 +139,7 @@ class Atlas:
         self.layout = group_layout(group)
         self.pixels = np.zeros((height, width, 4), np.float32)
         self.pixels[:, :, 3] = 1.0
+        self.space = working_space.working_space()
         self.signatures: dict[str, tuple] = {}
         self.rows: dict[str, int] = {}
         self._written: dict[str, object] = {}
@@ -148,9 +150,10 @@ class Atlas:
         self.was_shown = True
 
     def fits(self, group: bpy.types.NodeTree) -> bool:
-        """Whether the images still have the size and the layout that this was made for."""
+        """Whether the images still have the size and layout, and the file the working space, that this was made for."""
         width, height = image_pair(group, self.mode)[0].size
-        return self.pixels.shape[:2] == (height, width) and self.layout == group_layout(group)
+        same_shape = self.pixels.shape[:2] == (height, width) and self.layout == group_layout(group)
+        return same_shape and self.space == working_space.working_space()
 
     def holds(self, key: str, row: int, table: object) -> bool:
         """Whether a skin's row is this very table."""

@@ -94,7 +94,7 @@ def surface_row(
 ) -> np.ndarray:
     """A row (layout.width, 4).
 
-    columns       (size, 3, 3): M(d), a matrix for each entry
+    columns       (size, 3, 3): of each entry the three columns of M(d), each a colour
     weight        (3,): the object's; what there is everywhere where there is no lighting
     lighting      a skinglow.SurfaceLighting that the layout holds; its light counts over pi, as leaving skin does
     depth_per_mm  scene units for a millimetre of the thickness attribute
@@ -103,8 +103,8 @@ def surface_row(
     size = len(columns)
     for j in range(3):
         start = j * layout.entries
-        row[start : start + size, :3] = columns[:, :, j]
-        row[start + size : start + layout.entries, :3] = columns[-1, :, j]
+        row[start : start + size, :3] = columns[:, j]
+        row[start + size : start + layout.entries, :3] = columns[-1, j]
     row[layout.constant] = (*weight, depth_per_mm)
     row[layout.angular : layout.angular + 4, :3] = LAMBERT
     row[layout.object, :3] = weight

@@ -30,7 +30,10 @@ def icon_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> int:
             return 0
         columns = table[np.arange(WIDTH) * len(table) // WIDTH].clip(0.0, 1.0)
         pixels = np.ones((HEIGHT, WIDTH, 4), np.float32)
-        pixels[:, :, :3] = [Color(color).from_scene_linear_to_srgb()[:] for color in columns.tolist()]
+        pixels[:, :, :3] = [
+            Color(color).from_rec709_linear_to_scene_linear().from_scene_linear_to_srgb()[:]
+            for color in columns.tolist()
+        ]
         preview.image_size = (WIDTH, HEIGHT)
         preview.image_pixels_float.foreach_set(pixels.ravel())
         _shown[obj.name_full] = signature

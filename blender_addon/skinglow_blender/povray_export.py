@@ -9,7 +9,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from . import blender_version
+from . import blender_version, working_space
 from .errors import SkinError, core
 from .scene_lights import make_light
 from .scene_reading import SceneReading, Skin, read_scene
@@ -159,7 +159,8 @@ def _surface_arguments(obj: bpy.types.Object, folder: Path) -> tuple[dict[str, A
         picture = _copy_picture(source.image, folder)
         if picture is not None:
             return {"surface_image": picture.name}, [picture]
-    return {"surface_color": tuple(socket.default_value)[:3]}, []
+    color = working_space.to_rec709(np.array(socket.default_value)[:3])
+    return {"surface_color": tuple(color.clip(0.0).tolist())}, []
 
 
 def _copy_picture(image: bpy.types.Image, folder: Path) -> Path | None:

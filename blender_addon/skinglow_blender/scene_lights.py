@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import bpy
 from mathutils import Matrix
 
-from . import blender_version
+from . import blender_version, working_space
 from .errors import core
 from .light_nodes import node_factor
 
@@ -56,6 +56,7 @@ def read_lamp(obj: bpy.types.Object, matrix: Matrix, name: str) -> Lamp:
     tint = blender_version.light_temperature_color(light)
     if tint is not None:
         color = tuple(a * b for a, b in zip(color, tint, strict=True))
+    color, outside = working_space.lamp_color(color)
     stops = blender_version.light_exposure(light)
     if stops != 0.0:
         power *= core().exposure_factor(stops)
@@ -68,7 +69,9 @@ def read_lamp(obj: bpy.types.Object, matrix: Matrix, name: str) -> Lamp:
     signature = (name, kind, color, power, (where[0], where[1], where[2]), direction, shape, normalized, 1.0)
     receivers, excluded = _linked_objects(obj)
     why_dark = _why_dark(obj, kind, direction)
-    return Lamp(name, signature, receivers, excluded, why_dark, note, blender_version.light_casts_shadows(light))
+    return Lamp(
+        name, signature, receivers, excluded, why_dark, note or outside, blender_version.light_casts_shadows(light)
+    )
 
 
 def make_light(lamp: Lamp) -> Any:  # noqa: ANN401  a skinglow.Light

@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from . import blender_version
+from . import blender_version, working_space
 from .errors import SkinError, core
 from .image_pixels import colorspace_note
 from .world_image import environment_of_image
@@ -86,7 +86,8 @@ def _visible_to_diffuse(world: bpy.types.World, mode: str) -> bool:
 def _coefficients(background: Background) -> np.ndarray:
     sg = core()
     if not background.image:
-        return sg.Environment((1.0, 1.0, 1.0)).coefficients * background.color
+        color = working_space.to_rec709(np.array(background.color))
+        return sg.Environment((1.0, 1.0, 1.0)).coefficients * color
     environment = environment_of_image(background.image, background.projection)
     world_from_image = np.transpose(background.image_from_world)
     return environment.rotated(world_from_image).coefficients * background.color

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import bpy
 import numpy as np
 
-from . import thickness_attribute, world_image
+from . import thickness_attribute, working_space, world_image
 from .errors import SkinError
 from .live_update import STATE, Rebuilt, update_scene
 from .lut_image import group_layout, image_pair, read_row, remove_images, shown_image
@@ -142,7 +142,7 @@ def lut(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
         evaluated = obj.evaluated_get(depsgraph)
         size = read_skin(evaluated, evaluated.matrix_world).base[1]
     row, layout = read_row(image, settings.row), group_layout(group)
-    return row[:size, :3].copy() if layout is None else shown_colors(row, size, layout)
+    return working_space.to_rec709(row[:size, :3].copy() if layout is None else shown_colors(row, size, layout))
 
 
 def remove_skin(obj: bpy.types.Object) -> None:

@@ -2,8 +2,9 @@
 """The place of the skin's node group in an object's materials."""
 
 import bpy
+import numpy as np
 
-from . import blender_version
+from . import blender_version, working_space
 from .errors import SkinError
 from .lut_image import is_skin_group, skin_groups
 from .skin_group import new_group
@@ -12,7 +13,7 @@ from .skin_group import new_group
 SAMPLING_PROPERTY = "skinglow_sampling"
 #: A light skin, linear Rec.709, for objects without a material: the light skin patch of the ColorChecker chart
 #: (sRGB 194, 150, 130; X-Rite's published values).
-PLAIN_SKIN_COLOR = (0.5395, 0.3050, 0.2232, 1.0)
+PLAIN_SKIN_COLOR = (0.5395, 0.3050, 0.2232)
 PLAIN_SKIN_ROUGHNESS = 0.45
 
 
@@ -100,7 +101,8 @@ def _plain_skin(obj: bpy.types.Object) -> bpy.types.Material:
         raise SkinError(f"'{obj.name}' has no material, and its mesh belongs to a library: give it one there")
     material = bpy.data.materials.new("Skin")
     tree = blender_version.ensure_shader_tree(material)
-    _color_principled(tree, PLAIN_SKIN_COLOR, PLAIN_SKIN_ROUGHNESS)
+    color = working_space.from_rec709(np.array(PLAIN_SKIN_COLOR))
+    _color_principled(tree, (*color, 1.0), PLAIN_SKIN_ROUGHNESS)
     if obj.material_slots:
         obj.material_slots[0].material = material
     else:

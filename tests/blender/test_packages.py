@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hosts import HERE, Host, hosts_here
+from hosts import HERE, HOSTS, Host
 
 PROJECT = HERE.parents[1]
 PACKAGES = Path(os.environ.get("SKINGLOW_PACKAGES", PROJECT / "build" / "packages"))
@@ -108,7 +108,7 @@ class Installation:
     """A clean profile of one host, far from the project, and runs of Blender in it."""
 
     def __init__(self, host: Host, folder: Path) -> None:
-        assert host.path, f"Blender {host.name} is not there: {host.variable} does not say where it is"
+        host.require()
         self.profile, self.work = folder / "profile", folder / "work"
         self.work.mkdir()
         self.script = Path(shutil.copy(HERE / "installed_package.py", self.work))
@@ -145,7 +145,7 @@ class Installation:
         return json.loads(result.read_text())
 
 
-@pytest.mark.parametrize("host", hosts_here(), ids=lambda host: host.name)
+@pytest.mark.parametrize("host", HOSTS, ids=lambda host: host.name)
 def test_installed_by_blender_and_used_without_the_project(host: Host, tmp_path: Path) -> None:
     assert not tmp_path.is_relative_to(PROJECT)
     extension, legacy = zips()

@@ -1,7 +1,6 @@
 """The same glow by Cycles and by POV-Ray, both as linear EXR: not mirrored, pixel on pixel, edges left out."""
 
 import json
-import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -9,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import skinglow as sg
+from hosts import HOSTS, Host
 from povray_runs import run, write
 
 SCRIPT = Path(__file__).with_name("blender_glow_scene.py")
@@ -20,31 +20,21 @@ BASE = sg.BaseLut(np.exp(-np.linspace(0, 4.8, 256)), 12)
 ALLOWED = 1 / 255
 
 
-def hosts() -> dict[str, list[str]]:
-    """How to run a script in each Blender that is there; scripts/test names them."""
-    program = os.environ.get("SKINGLOW_BLENDER_34") or shutil.which("blender")
-    found = {}
-    if program:
-        found["3.4"] = [program, "-b", "--factory-startup", "-P", str(SCRIPT), "--"]
-    if wheel := os.environ.get("SKINGLOW_BLENDER_45"):
-        found["4.5 wheel"] = [wheel, str(SCRIPT)]
-    return found
-
-
-def blender(command: list[str], folder: Path, job: dict) -> np.ndarray:
+def blender(host: Host, folder: Path, job: dict) -> np.ndarray:
     """Runs the script with a job; the picture that it left, (height, width, 3)."""
     folder.mkdir(exist_ok=True)
     (folder / "job.json").write_text(json.dumps(job))
-    done = subprocess.run([*command, str(folder)], capture_output=True, text=True, timeout=300)
+    host.require()
+    done = subprocess.run(host.command(SCRIPT, [str(folder)]), capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stdout[-1000:] + done.stderr[-1000:]
     return np.load(folder / "picture.npy").astype(float)
 
 
-def both(tmp_path: Path, command: list[str], **job) -> tuple[np.ndarray, np.ndarray]:
+def both(tmp_path: Path, host: Host, **job) -> tuple[np.ndarray, np.ndarray]:
     """The picture by Blender and by POV-Ray."""
     weight = np.array([1.8, 0.5, 0.4]) + sg.light_weight(LAMPS, (0, 0, 0))
     job = dict(table=sg.recolour(BASE, weight).tolist(), **job)
-    by_blender = blender(command, tmp_path, job)
+    by_blender = blender(host, tmp_path, job)
     with np.load(tmp_path / "scene.npz") as scene:
         files = sg.povray_scene(
             scene["vertices"], scene["triangles"], scene["lut_u"], base=BASE, lights=LAMPS,
@@ -56,7 +46,7 @@ def both(tmp_path: Path, command: list[str], **job) -> tuple[np.ndarray, np.ndar
     reading = tmp_path / "reading"
     reading.mkdir()
     shutil.copy(tmp_path / "scene.exr", reading)
-    return by_blender, blender(command, reading, {"read": "scene.exr"})
+    return by_blender, blender(host, reading, {"read": "scene.exr"})
 
 
 def away_from_edges(picture: np.ndarray) -> np.ndarray:
@@ -74,20 +64,18 @@ def rms(difference: np.ndarray) -> float:
     return float(np.sqrt(np.mean(difference**2)))
 
 
-@pytest.mark.parametrize("host", ["3.4", "4.5 wheel"])
+@pytest.mark.parametrize("host", HOSTS, ids=lambda host: host.name)
 @pytest.mark.parametrize(
     ("camera", "resolution"), [("PERSP", [320, 240]), ("PERSP", [180, 260]), ("ORTHO", [260, 180])]
 )
 def test_middles_of_pixels(tmp_path, host, camera, resolution):
     """One sample in the middle of each pixel, so that silhouettes too can be compared."""
-    if host not in hosts():
-        pytest.fail(f"Blender {host} is not named in the environment (scripts/test does)")
-    found, expected = both(tmp_path, hosts()[host], camera=camera, resolution=resolution, samples=1)[::-1]
+    found, expected = both(tmp_path, host, camera=camera, resolution=resolution, samples=1)[::-1]
     inside = away_from_edges(expected)
     assert inside.mean() > 0.15
     assert np.ptp(expected[inside], axis=0).min() > 0.2  # a picture with something in it
     difference = rms((found - expected)[inside])
-    print(f"Blender {host}, {camera} {resolution}: RMS {difference:.2e}")
+    print(f"Blender {host.name}, {camera} {resolution}: RMS {difference:.2e}")
     assert difference <= ALLOWED / 20  # POV-Ray's EXR has half floats: about 1e-4 of the value
     assert np.abs(found - expected)[inside].max() <= ALLOWED
     covered = [np.count_nonzero(p.sum(axis=2)) for p in (found, expected)]
@@ -97,13 +85,11 @@ def test_middles_of_pixels(tmp_path, host, camera, resolution):
         assert rms((wrong - expected)[inside]) > ALLOWED
 
 
-@pytest.mark.parametrize("host", ["3.4", "4.5 wheel"])
+@pytest.mark.parametrize("host", HOSTS, ids=lambda host: host.name)
 def test_antialiased(tmp_path, host):
     """As the scene is emitted: nine samples a pixel in POV-Ray, 64 in a box filter in Cycles."""
-    if host not in hosts():
-        pytest.fail(f"Blender {host} is not named in the environment (scripts/test does)")
-    expected, found = both(tmp_path, hosts()[host], camera="PERSP", resolution=[320, 240], samples=64)
+    expected, found = both(tmp_path, host, camera="PERSP", resolution=[320, 240], samples=64)
     difference = rms((found - expected)[away_from_edges(expected)])
-    print(f"Blender {host}, antialiased: RMS {difference:.2e}")
+    print(f"Blender {host.name}, antialiased: RMS {difference:.2e}")
     assert difference <= ALLOWED
     assert rms(found - expected) <= 2 * ALLOWED  # edges too

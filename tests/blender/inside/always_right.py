@@ -319,6 +319,53 @@ def check_two_scenes(_work):
     np.testing.assert_allclose(sb.lut(two, graph), fresh_table(two, graph), rtol=3e-6)
 
 
+def check_frames_with_two_view_layers(_work):
+    """frame_set evaluates both layers; shown is the one in the window, and the other after switching to it."""
+    scene, window = bpy.context.scene, bpy.context.window_manager.windows[0]
+    extra = bpy.data.collections.new("Extra")
+    scene.collection.children.link(extra)
+    key, fill = lamp("Key", color=(1.0, 0.0, 0.0)), lamp("Fill", color=(0.0, 0.0, 1.0), collection=extra)
+    obj = skin()
+    layers = [scene.view_layers[0], scene.view_layers.new("Second")]
+    layers[1].layer_collection.children["Extra"].exclude = True
+    for layer, lamps in ((0, [key, fill]), (1, [key]), (0, [key, fill])):
+        window.view_layer = layers[layer]
+        sb.update(depsgraph())
+        assert_shows(obj, paper_table(lamps))
+        for frame in (2, 3):
+            scene.frame_set(frame)
+            assert_shows(obj, paper_table(lamps))
+            assert sb.update(depsgraph()) == []
+
+
+def check_materials_that_bring_another_node_group(work):
+    """A skin that is given an appended skin's material, also by its mesh's other user, moves to what that shows."""
+    path = _library(work)
+    key = lamp("Key", color=(0.1, 0.9, 0.4))
+    own = skin("Own")
+    sharing = link(own.copy())
+    sharing.location.x = 2.0
+    appended = link(_load(path, linked=False))
+    appended.location.y = 2.0
+    skins = [own, sharing, appended]
+    assert_fresh(*skins)
+    assert own.skinglow.group != appended.skinglow.group
+    own.material_slots[0].material = appended.material_slots[0].material
+    assert_fresh(*skins)
+    assert len({obj.skinglow.group for obj in skins}) == 1
+    assert len({obj.skinglow.row for obj in skins}) == 3
+    key.data.color = (0.9, 0.1, 0.4)
+    assert_fresh(*skins)
+    # The images that nobody shows any more go when the file is loaded again.
+    for material in list(bpy.data.materials):
+        if not material.users:
+            bpy.data.materials.remove(material)
+    bpy.ops.wm.save_as_mainfile(filepath=str(work / "merged.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(work / "merged.blend"))
+    assert len([image for image in bpy.data.images if "Skinglow" in image.name]) == 4
+    assert_fresh(*(bpy.data.objects[name] for name in ("Own", "Own.001", "Library skin")))
+
+
 def check_light_linking(_work):
     if bpy.app.version < (4, 0, 0):
         return

@@ -133,6 +133,39 @@ def check_viewport_and_render_have_lamps_of_their_own(work):
         bpy.app.handlers.frame_change_post.remove(while_rendering)
 
 
+def check_renamed_excluded_and_linked(work):
+    """Rendered: a lamp renamed, one in an excluded collection, a skin and a lamp of a library."""
+    lamp("Library lamp", color=(0.0, 1.0, 0.0), location=(0.0, 0.0, 2.0))
+    sb.make_skin(patch("Library skin", size=1.0, material=black_material()), thickness=[0.0] * 4)
+    depsgraph()
+    library = str(work / "library.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=library)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(library, link=True) as (_source, target):
+        target.objects = ["Library skin", "Library lamp"]
+    linked, linked_lamp = target.objects
+    for obj in target.objects:
+        bpy.context.scene.collection.objects.link(obj)
+    extra = bpy.data.collections.new("Extra")
+    bpy.context.scene.collection.children.link(extra)
+    key = lamp("Key", color=(1.0, 0.0, 0.0))
+    lamp("Left out", color=(0.0, 0.0, 1.0), collection=extra)
+    own = patch("Own", size=1.0, location=(1.0, 0.0, 0.0), material=black_material("Own"))
+    sb.make_skin(own, thickness=[0.0] * 4, reference_point=(0.0, 0.0, 0.0))
+    camera_above(2.0, (0.5, 0.0, 5.0))
+    key.name = "Renamed"
+    bpy.context.view_layer.layer_collection.children["Extra"].exclude = True
+    for red in (1.0, 0.25):
+        key.data.color = (red, 0.0, 0.0)
+        render_settings(4, 4).render.filepath = str(work / f"linked_{red}.exr")
+        bpy.ops.render.render(write_still=True)
+        picture = read_exr(work / f"linked_{red}.exr")
+        expected = paper_table([key, linked_lamp])[0]
+        np.testing.assert_allclose(picture[2, 0], expected, rtol=1e-5)
+        np.testing.assert_allclose(picture[2, 3], expected, rtol=1e-5)
+    assert linked.library is not None
+
+
 def check_view_layers_have_lamps_of_their_own(work):
     """A lamp that one of two view layers excludes; each layer's picture shows its own lookup."""
     scene = bpy.context.scene

@@ -99,23 +99,64 @@ def weight(lamps, point, coefficients=(1.0, 0.0, 1.0)):
     return total
 
 
+def lamps_seen(graph):
+    """(evaluated lamp, world matrix) of all that shine in a depsgraph, instances too."""
+    for instance in graph.object_instances:
+        obj = instance.object
+        if obj.type != "LIGHT" or obj.data.energy == 0.0:
+            continue
+        base = instance.parent if instance.is_instance else obj
+        if graph.mode == "VIEWPORT" and not base.original.visible_get(view_layer=graph.view_layer):
+            continue
+        yield obj, np.array(instance.matrix_world, dtype=float)
+
+
 def fresh_table(obj, graph, size=256, thickest=12.0):
     """Eq. 1 to 3 for a skin at its bounds' centre, in numpy, from a depsgraph's own list of lamps."""
     evaluated = obj.evaluated_get(graph)
     corners = np.array([evaluated.matrix_world @ Vector(corner) for corner in evaluated.bound_box], dtype=float)
     point = (corners[0] + corners[6]) / 2
     total = np.array(BLOOD)
-    for instance in graph.object_instances:
-        other = instance.object
-        if other.type != "LIGHT" or other.data.energy == 0.0:
-            continue
-        base = instance.parent if instance.is_instance else other
-        if graph.mode == "VIEWPORT" and not base.original.visible_get(view_layer=graph.view_layer):
-            continue
-        place = np.array(instance.matrix_world.translation, dtype=float)
-        distance = 0.0 if other.data.type == "SUN" else np.linalg.norm(place - point)
+    for other, matrix in lamps_seen(graph):
+        distance = 0.0 if other.data.type == "SUN" else np.linalg.norm(matrix[:3, 3] - point)
         total += np.array(other.data.color, dtype=float) / (1.0 + distance**2)
     return (grey(size, thickest)[:, None] * total).astype(np.float32)
+
+
+def fresh_physical_table(obj, graph, base):
+    """M(d) E / pi for a skin at its bounds' centre, from a depsgraph's own list of lamps."""
+    evaluated = obj.evaluated_get(graph)
+    matrix = np.array(evaluated.matrix_world, dtype=float)
+    corners = np.array(evaluated.bound_box, dtype=float)[[0, 6]]
+    point = matrix[:3, :3] @ corners.mean(axis=0) + matrix[:3, 3]
+    lights = [physical_light(other.data, place) for other, place in lamps_seen(graph)]
+    return sg.recolour(base, sg.irradiance(lights, point) / np.pi).astype(np.float32)
+
+
+def physical_light(light, matrix):
+    """The core's lamp for one of Blender's without nodes, square where it has an area."""
+    fields = {
+        "kind": light.type,
+        "color": light.color,
+        "power": light.energy,
+        "position": matrix[:3, 3],
+        "direction": -matrix[:3, 2],
+    }
+    early = bpy.app.version < (4, 0, 0)
+    if light.type in ("POINT", "SPOT"):
+        fields["radius"] = light.shadow_soft_size
+        fields["soft_falloff"] = early or light.use_soft_falloff
+    if light.type == "SPOT":
+        fields |= {"spot_angle": light.spot_size, "spot_blend": light.spot_blend, "spot_cosine": early}
+    if light.type == "SUN":
+        fields["sun_angle"] = light.angle
+        fields["power"] *= sg.legacy_sun_power_factor(light.angle) if early else 1.0
+    if light.type == "AREA":
+        across, up = (light.size * np.linalg.norm(matrix[:3, axis]) for axis in (0, 1))
+        fields |= {"area_shape": "RECTANGLE", "size_x": across, "size_y": up}
+        fields |= {"tangent": matrix[:3, 0], "spread": light.spread}
+        fields["power"] *= sg.LEGACY_AREA_POWER_FACTOR if early else 1.0
+    return sg.Light(**fields)
 
 
 def assert_fresh(*skins):

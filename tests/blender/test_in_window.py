@@ -1,0 +1,21 @@
+"""What happens only where Blender has a window: the full program, under a virtual display."""
+
+import json
+import subprocess
+from pathlib import Path
+
+from hosts import HERE, HOSTS
+
+SECONDS = 300
+
+
+def test_lookup_follows_the_view_layer_in_the_window(tmp_path: Path) -> None:
+    (host,) = (host for host in HOSTS if host.is_program)
+    host.require()
+    result = tmp_path / "result.json"
+    program = [host.path, "--factory-startup", "-P", str(HERE / "window_layers.py"), "--", str(result)]
+    done = subprocess.run(
+        ["xvfb-run", "-a", *program], env=host.environment(tmp_path), capture_output=True, text=True, timeout=SECONDS
+    )
+    assert result.exists(), done.stdout[-3000:] + done.stderr[-3000:]
+    assert json.loads(result.read_text()) is True, json.loads(result.read_text())

@@ -1,0 +1,64 @@
+"""Runs in a Blender with a window: turns it from view layer to view layer and waits until the lookup follows.
+
+Usage: xvfb-run blender --factory-startup -P window_layers.py -- RESULT.json, which then holds true or what went wrong.
+"""
+
+import json
+import os
+import sys
+import time
+import traceback
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path[:0] = [str(HERE), str(HERE.parents[1] / "blender_addon")]
+sys.path.append(os.environ["SKINGLOW_SITE"])
+
+import bpy  # noqa: E402
+import numpy as np  # noqa: E402
+import skinglow_blender as sb  # noqa: E402
+from inside.scenes import lamp, paper_table, patch  # noqa: E402
+
+SECONDS = 60
+
+
+def window():
+    return bpy.context.window_manager.windows[0]
+
+
+def steps():
+    """Turns the window; yields while it waits for the add-on."""
+    for obj in list(bpy.data.objects):
+        bpy.data.objects.remove(obj)
+    scene = bpy.context.scene
+    extra = bpy.data.collections.new("Extra")
+    scene.collection.children.link(extra)
+    lamps = [lamp("Key", color=(1.0, 0.0, 0.0)), lamp("Fill", color=(0.0, 0.0, 1.0), collection=extra)]
+    obj = patch()
+    sb.make_skin(obj, thickness=[0.0, 1.0, 2.0, 3.0])
+    layers = [scene.view_layers[0], scene.view_layers.new("Second")]
+    layers[1].layer_collection.children["Extra"].exclude = True
+    # Back and forth again: by then both have been evaluated.
+    for which in (1, 0, 1, 0):
+        window().view_layer = layers[which]
+        expected = paper_table(lamps[: 2 - which])
+        until = time.monotonic() + SECONDS
+        while not np.allclose(sb.lut(obj, layers[which].depsgraph or layers[0].depsgraph), expected, rtol=1e-6):
+            assert time.monotonic() < until, f"{layers[which].name} shows another layer's lookup"
+            yield
+
+
+def tick():
+    try:
+        next(running)
+        return 0.1
+    except StopIteration:
+        outcome = True
+    except BaseException:
+        outcome = traceback.format_exc()
+    Path(sys.argv[-1]).write_text(json.dumps(outcome))
+    os._exit(0)
+
+
+running = steps()
+bpy.app.timers.register(tick, first_interval=0.5)
