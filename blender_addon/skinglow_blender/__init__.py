@@ -10,7 +10,19 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any
 
-from . import bundled_core, handlers, light_listing, lut_preview, operators, panel, povray_export, skin, skin_settings
+from . import (
+    bundled_core,
+    handlers,
+    light_list,
+    light_listing,
+    lut_preview,
+    measuring_operators,
+    operators,
+    panel,
+    povray_export,
+    skin,
+    skin_settings,
+)
 from .errors import SkinError
 from .live_update import Rebuilt
 from .skin import SkinState
@@ -39,7 +51,16 @@ __all__ = [
     "update",
 ]
 
-_PARTS = (bundled_core, skin_settings, lut_preview, operators, panel, handlers)
+_PARTS = (
+    bundled_core,
+    skin_settings,
+    lut_preview,
+    light_list,
+    operators,
+    measuring_operators,
+    panel,
+    handlers,
+)
 _registered = False
 
 

@@ -37,6 +37,8 @@ class LiveState:
         self.owners: dict[tuple[str, int], tuple[str, str | None]] = {}
         self.rendering = False
         self.render_frame: float | None = None
+        #: How often a scene was looked at, so once an edit: what was derived before may be out of date.
+        self.looks = 0
 
     def forget(self) -> None:
         """Forgets all tables, so that the next update computes and shows every one."""
@@ -53,6 +55,7 @@ def update_scene(depsgraph: bpy.types.Depsgraph, only_live: bool = False) -> lis
 
     A skin with a fault keeps its last good table. With only_live, skins that are not set to follow are left.
     """
+    STATE.looks += 1
     reading = read_scene(depsgraph)
     rebuilt: list[Rebuilt] = []
     faults: dict[str, str] = {}

@@ -61,17 +61,31 @@ def read_geometry(obj: bpy.types.Object, scene: bpy.types.Scene) -> Geometry:
     )
 
 
+def is_measured(obj: bpy.types.Object, geometry: Geometry) -> bool:
+    """Whether the thickness that is stored was measured on this very geometry."""
+    return obj.data.get(MEASURED_GEOMETRY) == geometry.digest() and THICKNESS_ATTRIBUTE in obj.data.attributes
+
+
 def ensure_measured(
     obj: bpy.types.Object, scene: bpy.types.Scene, progress: Callable[[float], bool] | None = None
 ) -> bool:
     """Measures and stores a mesh's thickness unless that was done for this very geometry; whether it did."""
     geometry = read_geometry(obj, scene)
-    digest = geometry.digest()
-    if obj.data.get(MEASURED_GEOMETRY) == digest and THICKNESS_ATTRIBUTE in obj.data.attributes:
+    if is_measured(obj, geometry):
         return False
-    store(obj, measure(geometry, progress))
-    obj.data[MEASURED_GEOMETRY] = digest
+    store_measured(obj, scene, geometry, measure(geometry, progress))
     return True
+
+
+def store_measured(
+    obj: bpy.types.Object, scene: bpy.types.Scene, geometry: Geometry, thickness_mm: Sequence[float]
+) -> None:
+    """Stores what was measured on a geometry, and for which it was; raises SkinError if the mesh changed meanwhile."""
+    digest = geometry.digest()
+    if read_geometry(obj, scene).digest() != digest:
+        raise SkinError(f"'{obj.name}' was changed while its thickness was measured: measure it again")
+    store(obj, thickness_mm)
+    obj.data[MEASURED_GEOMETRY] = digest
 
 
 def measure(geometry: Geometry, progress: Callable[[float], bool] | None = None) -> np.ndarray:
