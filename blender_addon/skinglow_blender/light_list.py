@@ -145,7 +145,7 @@ def unregister() -> None:
     if bpy.app.timers.is_registered(_fill_soon):
         bpy.app.timers.unregister(_fill_soon)
     for manager in bpy.data.window_managers:
-        manager.skinglow_lists.clear()
+        manager.property_unset("skinglow_lists")
     del bpy.types.WindowManager.skinglow_lists
     bpy.utils.unregister_class(LightList)
     bpy.utils.unregister_class(LightRow)

@@ -88,6 +88,15 @@ def click(x: int, y: int, seconds: float = 0.2) -> Iterator[float]:
     yield seconds
 
 
+def press(key: str, x: int, y: int, **with_keys: bool) -> Iterator[float]:
+    """A key pressed with the pointer at a place; with_keys: ctrl, shift, alt."""
+    window().event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
+    yield 0.2
+    for value in ("PRESS", "RELEASE"):
+        window().event_simulate(type=key, value=value, x=x, y=y, **with_keys)
+        yield 0.1
+
+
 def wait_for(true: Callable[[], bool], seconds: float, what: str) -> Iterator[float]:
     """Lets Blender go on until something is true; raises TimeoutError naming it if it never is."""
     end = time.monotonic() + seconds
