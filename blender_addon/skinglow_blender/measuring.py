@@ -19,7 +19,7 @@ class Measuring:
         core()  # where it is missing that is said here, not in the thread
         self.geometries = geometries  #: by name of the object
         self.thicknesses: dict[str, np.ndarray] = {}  #: what is done, mm at each vertex
-        self.cancelled = False
+        self.cancelled = False  #: set it, and the thread ends soon
         self._share = 0.0
         self._fault: BaseException | None = None
         self._thread = Thread(target=self._run, name="Skinglow thickness", daemon=True)

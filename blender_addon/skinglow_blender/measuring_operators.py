@@ -63,17 +63,20 @@ class _MeasuringOperator:
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         measuring = _MeasuringOperator.current
-        if measuring is None or measuring.cancelled or (event.type == "ESC" and event.value == "PRESS"):
-            self.cancel(context)
-            self.report({"INFO"}, "Measuring was cancelled; nothing was changed")
-            return {"CANCELLED"}
+        if event.type == "ESC" and event.value == "PRESS":
+            measuring.cancelled = True
+            return {"RUNNING_MODAL"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
         _show_progress(context)
-        # Somebody who went into edit mode meanwhile comes out again, and the result waits for that.
-        if measuring.running or context.mode != "OBJECT":
+        # The thread ends a block of vertices first. Somebody who went into edit mode meanwhile comes out again, and
+        # the result waits for that.
+        if measuring.running or (context.mode != "OBJECT" and not measuring.cancelled):
             return {"PASS_THROUGH"}
         self._end(context)
+        if measuring.cancelled:
+            self.report({"INFO"}, "Measuring was cancelled; nothing was changed")
+            return {"CANCELLED"}
         try:
             thicknesses = measuring.wait()
         except (SkinError, ValueError, RuntimeError) as error:
@@ -82,7 +85,7 @@ class _MeasuringOperator:
         return self._store(context, measuring.geometries, thicknesses)
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Blender calls this too, when a file is loaded or the window closes."""
+        """Blender's call when a file is loaded or the window closes."""
         stop_measuring()
         self._end(context)
 
@@ -115,7 +118,13 @@ def _object(name: str) -> bpy.types.Object:
 def _show_progress(context: bpy.types.Context) -> None:
     measuring = _MeasuringOperator.current
     names = ", ".join(measuring.geometries)
-    context.workspace.status_text_set(f"Measuring the thickness of {names}: {measuring.done:.0%}      Esc: cancel")
+    if measuring.cancelled:
+        text = f"Cancelling: the thickness of {names} stays as it was"
+    elif measuring.running:
+        text = f"Measuring the thickness of {names}: {measuring.done:.0%}      Esc: cancel"
+    else:
+        text = f"The thickness of {names} is measured: go back to object mode to take it over      Esc: cancel"
+    context.workspace.status_text_set(text)
     redraw_panels(context)
 
 
@@ -224,7 +233,8 @@ class SKINGLOW_OT_cancel_measuring(bpy.types.Operator):  # noqa: N801
         return _MeasuringOperator.current is not None
 
     def execute(self, _context: bpy.types.Context) -> set[str]:
-        stop_measuring()
+        # The operator that started it sees this and ends.
+        _MeasuringOperator.current.cancelled = True
         return {"FINISHED"}
 
 

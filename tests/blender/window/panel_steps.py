@@ -1,6 +1,6 @@
 """Runs in a Blender with a window: what people do with the panel, by real clicks and keys; facts as JSON lines.
 
-Arguments after "--": the file of facts, the picture, and the folders of scripts/panel_pictures, the add-on and the core.
+Arguments after "--": the file of facts, the picture; the folders of scripts/panel_pictures, the add-on and the core.
 """
 
 import json
