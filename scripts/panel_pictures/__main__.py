@@ -1,8 +1,8 @@
 """Takes docs/images/panel.png: a full Blender in a window that nobody sees, and a click on the panel's button.
 
 Usage: python scripts/panel_pictures [BLENDER [PICTURE]]
-Needs Xvfb, and the core as a folder, which scripts/build makes. For Blender before 4.2: later ones draw by OpenGL or Vulkan
-where their own screenshots are black.
+Needs Xvfb, and the core as a folder, which scripts/build makes. For Blender before 4.2: the screenshots that later ones
+take of themselves are black there.
 """
 
 import os

@@ -32,7 +32,7 @@ def steps() -> Iterator[float | None]:
     bpy.context.scene.render.engine = "CYCLES"
     bpy.context.scene.cycles.use_denoising = False
     bpy.context.scene.cycles.use_preview_denoising = False
-    bpy.context.scene.cycles.preview_samples = 16
+    bpy.context.scene.cycles.preview_samples = 8
     yield 0.5
     with in_view():
         bpy.ops.view3d.view_axis(type="FRONT")
@@ -49,7 +49,7 @@ def steps() -> Iterator[float | None]:
     )
     area_of("VIEW_3D").spaces.active.shading.type = "RENDERED"
     area_of("VIEW_3D").tag_redraw()
-    yield 30.0
+    yield 25.0
     with in_view():
         save_picture(picture)
     print("MADE", head.name, flush=True)

@@ -122,7 +122,7 @@ def the_list():
 
 def a_cancelled_measuring():
     before = thickness()
-    head().skinglow.rays = 65536
+    head().skinglow.rays = 4096
     with in_view():
         bpy.ops.ed.undo_push(message="rays")
         tell("bake began as", list(bpy.ops.skinglow.bake("INVOKE_DEFAULT")))
