@@ -9,12 +9,9 @@
 namespace skinglow {
 namespace {
 
-/// Some milliseconds of rays: long against a block's cost, short against a person's patience with a cancel
-/// button.
-constexpr std::size_t block_size = 128;
-
 struct Blocks {
     std::size_t count;
+    std::size_t block;
     const std::function<void(std::size_t, std::size_t)>& work;
     std::atomic<std::size_t> next = 0;
     std::atomic<std::size_t> finished = 0;
@@ -24,9 +21,9 @@ struct Blocks {
 
     void take(const std::function<void(std::size_t)>& done) {
         while (!stopped) {
-            const std::size_t begin = next.fetch_add(block_size);
+            const std::size_t begin = next.fetch_add(block);
             if (begin >= count) return;
-            const std::size_t end = std::min(begin + block_size, count);
+            const std::size_t end = std::min(begin + block, count);
             work(begin, end);
             finished += end - begin;
             if (done) done(finished);
@@ -51,11 +48,11 @@ struct StopAtEnd {
 }  // namespace
 
 void for_each_block(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& work,
-                    const std::function<void(std::size_t)>& done) {
+                    const std::function<void(std::size_t)>& done, std::size_t block) {
     const std::size_t wanted = threads > 0 ? static_cast<std::size_t>(threads)
                                            : std::max<std::size_t>(1, std::thread::hardware_concurrency());
-    const std::size_t used = std::min(wanted, (count + block_size - 1) / block_size);
-    Blocks blocks{.count = count, .work = work, .failure = {}};
+    const std::size_t used = std::min(wanted, (count + block - 1) / block);
+    Blocks blocks{.count = count, .block = block, .work = work, .failure = {}};
     {
         std::vector<std::jthread> helpers;
         const StopAtEnd stop{

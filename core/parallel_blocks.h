@@ -10,8 +10,11 @@ namespace skinglow {
 /// host's.
 /// @param threads  0: one for each processor
 /// @param done     told the number finished so far after each block that the calling thread does; may be
-/// empty What `work` or `done` throws stops the rest and is thrown on.
+/// empty
+/// @param block  how many go to a thread at once: some milliseconds of work, which is long against a
+/// block's cost and short against a person's patience with a cancel button
+/// What `work` or `done` throws stops the rest and is thrown on.
 void for_each_block(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& work,
-                    const std::function<void(std::size_t)>& done);
+                    const std::function<void(std::size_t)>& done, std::size_t block = 128);
 
 }  // namespace skinglow

@@ -15,6 +15,7 @@ namespace skinglow {
 namespace {
 
 constexpr int most_rays = 65536;
+constexpr std::size_t rays_a_block = 8192;  // some milliseconds: Cancel waits for a block
 constexpr double widest_cone = 1.5;  // radians; towards pi/2 rays run along the surface they start from
 constexpr double thinnest = 1e-12;   // edges of the unit box: far below what single precision can place
 constexpr int openness_rays = 64;    // steps of 1/64 in a share that is compared with a few per cent
@@ -98,6 +99,7 @@ std::vector<double> measure_all(const WeldedMesh& mesh, const RayScene& scene,
                                 const ThicknessOptions& options, const ProgressStage& done) {
     std::vector<double> values(mesh.positions().size());
     const auto directions = cone_directions(options.rays, options.cone_half_angle);
+    const std::size_t vertices_a_block = std::max<std::size_t>(1, rays_a_block / directions.size());
     for_each_block(
         values.size(), options.threads,
         [&](std::size_t begin, std::size_t end) {
@@ -107,7 +109,7 @@ std::vector<double> measure_all(const WeldedMesh& mesh, const RayScene& scene,
                 values[i] = measure(mesh, scene, static_cast<std::uint32_t>(i), directions, samples);
             }
         },
-        done);
+        done, vertices_a_block);
     return values;
 }
 

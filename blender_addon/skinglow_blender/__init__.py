@@ -14,8 +14,10 @@ from . import (
     batch,
     bundled_core,
     handlers,
+    light_list,
     light_listing,
     lut_preview,
+    measuring_operators,
     operators,
     panel,
     povray_export,
@@ -57,7 +59,18 @@ __all__ = [
     "update",
 ]
 
-_PARTS = (bundled_core, skin_settings, scene_settings, lut_preview, operators, panel, handlers, batch)
+_PARTS = (
+    bundled_core,
+    skin_settings,
+    scene_settings,
+    lut_preview,
+    light_list,
+    operators,
+    measuring_operators,
+    panel,
+    handlers,
+    batch,
+)
 _registered = False
 
 

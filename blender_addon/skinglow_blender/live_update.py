@@ -43,6 +43,8 @@ class LiveState:
         self.owners: dict[tuple[str, int], tuple[str, str | None]] = {}
         self.rendering = False
         self.render_frame: float | None = None
+        #: How often a scene was looked at, so once an edit: what was derived before may be out of date.
+        self.looks = 0
 
     def forget(self) -> None:
         """Forgets all tables, so that the next update computes and shows every one."""
@@ -59,6 +61,7 @@ def update_scene(depsgraph: bpy.types.Depsgraph, only_live: bool = False) -> lis
 
     A skin with a fault keeps its last good table. With only_live, skins that are not set to follow are left.
     """
+    STATE.looks += 1
     faults: dict[str, str] = {}
     reading = with_visible_shares(read_scene(depsgraph), depsgraph, faults)
     rebuilt: list[Rebuilt] = []

@@ -10,7 +10,8 @@ from .errors import SkinError
 from .live_update import STATE
 from .skin import lut
 
-WIDTH, HEIGHT = 128, 32
+#: A square: Blender shows an icon in one, whatever its shape.
+WIDTH, HEIGHT = 64, 64
 _previews: bpy.utils.previews.ImagePreviewCollection | None = None
 _shown: dict[str, tuple] = {}
 

@@ -6,14 +6,26 @@ from collections.abc import Callable
 import bpy
 from bpy.props import BoolProperty, StringProperty
 
-from . import povray_export, skin, thickness_attribute
+from . import povray_export, skin
 from .base_image import base_of_image
 from .errors import SkinError
 from .live_update import STATE
+from .lut_image import skin_groups
 
 
-def _skins(context: bpy.types.Context) -> list[bpy.types.Object]:
-    return [o for o in context.selected_objects if o.type == "MESH" and o.skinglow.enabled]
+def selected_meshes(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """The selected meshes, the active one first."""
+    meshes = [obj for obj in context.selected_objects if obj.type == "MESH"]
+    return sorted(meshes, key=lambda obj: obj != context.object)
+
+
+def selected_skins(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """The selected skins; the active one where none is selected, as after a click on a lamp of the list."""
+    skins = [obj for obj in selected_meshes(context) if obj.skinglow.enabled]
+    active = context.object
+    if not skins and active is not None and active.type == "MESH" and active.skinglow.enabled:
+        return [active]
+    return skins
 
 
 class _SkinOperator:
@@ -30,113 +42,88 @@ class _SkinOperator:
         return {"FINISHED"}
 
 
-class SKINGLOW_OT_make(_SkinOperator, bpy.types.Operator):  # noqa: N801  Blender's naming
-    bl_idname = "skinglow.make"
-    bl_label = "Make Skin Glow"
-    bl_description = "Measure the selected meshes' thickness and let the light of your lamps through, live"
-
+class _SelectedSkins(_SkinOperator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return context.mode == "OBJECT" and any(o.type == "MESH" for o in context.selected_objects)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        meshes = [o for o in context.selected_objects if o.type == "MESH"]
-
-        def make() -> str:
-            states = [skin.make_skin(obj) for obj in meshes]
-            return "; ".join(f"{s.name}: {s.thickness_mm[0]:.2f} to {s.thickness_mm[1]:.2f} mm thick" for s in states)
-
-        return self.attempt(make)
+        if context.mode != "OBJECT":
+            cls.poll_message_set("Leave the mode you are in: works in object mode")
+        elif not selected_skins(context):
+            cls.poll_message_set("Select a skin, or make one with 'Make Skin Glow'")
+        else:
+            return True
+        return False
 
 
-class SKINGLOW_OT_remove(_SkinOperator, bpy.types.Operator):  # noqa: N801
+class SKINGLOW_OT_remove(_SelectedSkins, bpy.types.Operator):  # noqa: N801  Blender's naming
+    """Takes skins away."""
+
     bl_idname = "skinglow.remove"
-    bl_label = "Remove"
+    bl_label = "Remove Skin Glow"
     bl_description = "Take away all that the add-on brought to the selected skins; their materials are as before"
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return context.mode == "OBJECT" and bool(_skins(context))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         def remove() -> str:
-            skins = _skins(context)
-            for obj in skins:
+            names = [obj.name for obj in selected_skins(context)]
+            for obj in selected_skins(context):
                 skin.remove_skin(obj)
-            return f"{len(skins)} skins removed"
+            return f"Skin glow removed from {', '.join(names)}"
 
         return self.attempt(remove)
 
 
-class SKINGLOW_OT_reset(_SkinOperator, bpy.types.Operator):  # noqa: N801
-    bl_idname = "skinglow.reset"
-    bl_label = "Reset"
-    bl_description = "Set everything about the selected skins back to the defaults; the measured thickness stays"
+class SKINGLOW_OT_reset(_SelectedSkins, bpy.types.Operator):  # noqa: N801
+    """Sets skins back to the defaults."""
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return bool(_skins(context))
+    bl_idname = "skinglow.reset"
+    bl_label = "Reset Skin Glow"
+    bl_description = "Set everything about the selected skins back to the defaults; the measured thickness stays"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         def reset() -> str:
-            for obj in _skins(context):
+            names = [obj.name for obj in selected_skins(context)]
+            for obj in selected_skins(context):
                 skin.reset_settings(obj)
-            return "Back to the defaults"
+            return f"{', '.join(names)}: back to the defaults"
 
         return self.attempt(reset)
 
 
-class SKINGLOW_OT_update(_SkinOperator, bpy.types.Operator):  # noqa: N801
+class _AnySkin(_SkinOperator):
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        if skin_groups():
+            return True
+        cls.poll_message_set("There is no skin in this file yet: select a mesh and press 'Make Skin Glow'")
+        return False
+
+
+class SKINGLOW_OT_update(_AnySkin, bpy.types.Operator):  # noqa: N801
+    """Computes every skin afresh."""
+
     bl_idname = "skinglow.update"
-    bl_label = "Update Now"
+    bl_label = "Update Skin Glow Now"
     bl_description = "Compute every skin afresh, also those that are not live; base lookup images are read again"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         def update() -> str:
             base_of_image.cache_clear()
             STATE.forget()
-            return f"{len(skin.update(context.evaluated_depsgraph_get()))} skins computed"
+            names = [rebuilt.skin for rebuilt in skin.update(context.evaluated_depsgraph_get())]
+            return f"Computed afresh: {', '.join(names) or 'nothing, as this view layer shows no skin'}"
 
         return self.attempt(update)
 
 
-class SKINGLOW_OT_bake(_SkinOperator, bpy.types.Operator):  # noqa: N801
-    bl_idname = "skinglow.bake"
-    bl_label = "Measure Thickness"
-    bl_description = "Measure the active skin's thickness again, mm; the pointer shows how far it is"
+class SKINGLOW_OT_export_povray(_AnySkin, bpy.types.Operator):  # noqa: N801
+    """Writes POV-Ray scenes. There is nothing to undo: it changes no data of Blender's."""
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        obj = context.object
-        return context.mode == "OBJECT" and obj is not None and obj.type == "MESH" and obj.skinglow.enabled
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        manager = context.window_manager
-
-        def show(done: float) -> bool:
-            manager.progress_update(100.0 * done)
-            return True
-
-        def bake() -> str:
-            manager.progress_begin(0.0, 100.0)
-            try:
-                geometry = thickness_attribute.read_geometry(context.object, context.scene)
-                measured = thickness_attribute.measure(geometry, show)
-                thickness_attribute.store(context.object, measured, geometry.unit_mm)
-            finally:
-                manager.progress_end()
-            return f"{context.object.name}: {len(context.object.data.vertices)} vertices measured"
-
-        return self.attempt(bake)
-
-
-class SKINGLOW_OT_export_povray(_SkinOperator, bpy.types.Operator):  # noqa: N801
     bl_idname = "skinglow.export_povray"
-    bl_label = "Export to POV-Ray"
-    bl_description = "Write the scene's skins with camera, lamps and lookup as POV-Ray files into a folder"
+    bl_label = "Export Skin Glow to POV-Ray"
+    bl_description = "Write the scene's skins with camera, lamps and lookup as POV-Ray 3.7 files into a folder"
     bl_options = {"REGISTER"}
 
     directory: StringProperty(subtype="DIR_PATH", description="Folder to write into")
+    filter_folder: BoolProperty(default=True, options={"HIDDEN"})
     surface: BoolProperty(
         name="Surface", default=True, description="Also the surface; off: only the light coming through"
     )
@@ -147,6 +134,8 @@ class SKINGLOW_OT_export_povray(_SkinOperator, bpy.types.Operator):  # noqa: N80
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         def export() -> str:
+            if not self.directory:
+                raise SkinError("No folder is given to write the POV-Ray files into: choose one")
             graph = context.evaluated_depsgraph_get()
             files = povray_export.export_povray(graph, bpy.path.abspath(self.directory), surface=self.surface)
             return f"{len(files)} files written to {self.directory}"
@@ -154,13 +143,46 @@ class SKINGLOW_OT_export_povray(_SkinOperator, bpy.types.Operator):  # noqa: N80
         return self.attempt(export)
 
 
+class SKINGLOW_OT_select_light(_SkinOperator, bpy.types.Operator):  # noqa: N801
+    """From a line of the list to the lamp in the scene; the skin stays active, and so the list in sight."""
+
+    bl_idname = "skinglow.select_light"
+    bl_label = "Select Light of Skin"
+    bl_description = "Select this lamp in the scene; the skin stays the active object, so that this list stays"
+    bl_options = {"REGISTER", "UNDO", "INTERNAL"}
+
+    light: StringProperty(name="Light", description="Name of the lamp, or '<lamp> in <what instances it>'")
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if context.mode == "OBJECT":
+            return True
+        cls.poll_message_set("Leave the mode you are in: works in object mode")
+        return False
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        def select() -> str:
+            objects = context.view_layer.objects
+            # An instanced lamp has no place of its own to be selected at: what instances it has.
+            lamp = objects.get(self.light) or objects.get(self.light.rpartition(" in ")[2])
+            if lamp is None:
+                raise SkinError(f"'{self.light}' is not in this view layer: include its collection to select it")
+            if lamp.hide_select or not lamp.visible_get():
+                raise SkinError(f"'{lamp.name}' is hidden or cannot be selected: show it in the outliner first")
+            for obj in context.selected_objects:
+                obj.select_set(False)
+            lamp.select_set(True)
+            return f"{lamp.name} selected"
+
+        return self.attempt(select)
+
+
 CLASSES = (
-    SKINGLOW_OT_make,
     SKINGLOW_OT_remove,
     SKINGLOW_OT_reset,
     SKINGLOW_OT_update,
-    SKINGLOW_OT_bake,
     SKINGLOW_OT_export_povray,
+    SKINGLOW_OT_select_light,
 )
 
 

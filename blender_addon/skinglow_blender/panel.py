@@ -1,120 +1,149 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel, in the 3D view's sidebar and in the object's properties."""
+"""The panel and its parts, each both in the 3D view's sidebar and in the object's properties."""
 
 import bpy
 
-from .light_listing import light_report
+from .light_list_panel import SKINGLOW_UL_lights, draw_lights
 from .live_update import STATE
 from .lut_preview import icon_of
-from .skin_settings import TISSUE_SLIDERS
+from .measuring_operators import measuring_now
+from .skin_panel import draw_look, draw_lookup, draw_thickness
 from .thickness_attribute import unit_mm
+from .wrapped_text import draw_wrapped
 
 
-class _SkinPanel:
+def is_skin(obj: bpy.types.Object | None) -> bool:
+    """Whether the panel has a skin to show."""
+    return obj is not None and obj.type == "MESH" and obj.skinglow.enabled
+
+
+class _Main:
     bl_label = "Skinglow"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         obj = context.object
-        _draw_faults(layout)
-        if obj is None or obj.type != "MESH" or not obj.skinglow.enabled:
-            layout.operator("skinglow.make", icon="LIGHT_SUN")
-            if obj is not None and obj.type == "MESH":
-                layout.label(text=f"{max(obj.dimensions) * unit_mm(obj, context.scene):.4g} mm across")
-                layout.prop(obj.skinglow, "unit_mm")
+        for fault in STATE.faults.values():
+            box = layout.box()
+            box.alert = True
+            draw_wrapped(box.column(align=True), fault, context, icon="ERROR")
+        if measuring_now() is not None:
+            _draw_progress(layout)
+        if not is_skin(obj):
+            _draw_start(layout, obj, context)
             return
-        _draw_settings(layout, obj.skinglow, context.scene)
+        row = layout.row()
         icon = icon_of(obj, context.view_layer.depsgraph)
         if icon:
-            layout.template_icon(icon_value=icon, scale=4.0)
-        row = layout.row(align=True)
-        row.prop(obj.skinglow, "live", toggle=True)
-        row.operator("skinglow.update", text="Update now")
-        _draw_lamps(layout, obj, context)
-        column = layout.column(align=True)
-        column.prop(obj.skinglow, "unit_mm")
-        column.prop(obj.skinglow, "rays")
-        column.prop(obj.skinglow, "min_openness")
-        column.operator("skinglow.bake")
-        layout.operator("skinglow.export_povray")
-        row = layout.row(align=True)
-        row.operator("skinglow.reset")
-        row.operator("skinglow.remove")
+            row.template_icon(icon_value=icon, scale=3.0)
+        column = row.column(align=True)
+        column.label(text=f"0 to {obj.skinglow.max_thickness_mm:.4g} mm")
+        column.prop(obj.skinglow, "live", toggle=True)
+        column.operator("skinglow.update", text="Update Now")
 
 
-def _draw_faults(layout: bpy.types.UILayout) -> None:
-    for fault in STATE.faults.values():
-        box = layout.box()
-        box.alert = True
-        words, line = fault.split(), ""
-        icon = "ERROR"
-        for word in [*words, ""]:
-            if len(line) + len(word) > 44 or not word:
-                box.label(text=line.strip(), icon=icon)
-                line, icon = "", "BLANK1"
-            line += word + " "
-
-
-def _draw_settings(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) -> None:
-    layout.row().prop(settings, "mode", expand=True)
-    layout.prop(settings, "strength")
-    if settings.mode == "PAPER":
-        layout.prop(settings, "base")
-        if settings.base == "IMAGE":
-            layout.template_ID(settings, "base_image", open="image.open")
-        layout.prop(settings, "blood_weight")
-        layout.prop(settings, "attenuation")
-    if settings.mode == "PHYSICAL" or (settings.mode == "PAPER" and settings.base == "SKIN"):
-        layout.prop(settings, "preset")
-        column = layout.column(align=True)
-        for name in TISSUE_SLIDERS:
-            column.prop(settings, name, slider=True)
-    column = layout.column(align=True)
-    column.prop(settings, "max_thickness_mm")
-    column.prop(settings, "size")
-    if settings.mode != "EXISTING":
-        layout.prop(settings, "reference")
-        if settings.reference == "POINT":
-            layout.prop(settings, "reference_point")
-    if settings.mode == "PHYSICAL":
-        layout.prop(scene.skinglow, "occlusion")
-
-
-def _draw_lamps(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context) -> None:
-    if obj.skinglow.mode == "EXISTING":
+def _draw_start(layout: bpy.types.UILayout, obj: bpy.types.Object | None, context: bpy.types.Context) -> None:
+    button = layout.row()
+    button.scale_y = 1.5
+    button.operator("skinglow.make", icon="LIGHT_SUN")
+    if obj is None or obj.type != "MESH":
+        draw_wrapped(layout.column(align=True), "Select the mesh that is to glow", context, icon="INFO")
         return
-    box = layout.box()
-    graph = context.view_layer.depsgraph
-    rows = light_report(obj, graph) if graph is not None else []
-    if not rows:
-        box.label(text="No lamps in this scene", icon="LIGHT")
-    for row in rows:
-        line = box.row()
-        line.label(text=row["name"], icon="WORLD" if row["kind"] == "WORLD" else f"LIGHT_{row['kind']}")
-        if row["reason"]:
-            line.label(text=row["reason"])
-        else:
-            line.label(text=f"{row['share']:.0%}  ({', '.join(f'{w:.3g}' for w in row['weight'])})")
+    column = layout.column(align=True)
+    column.use_property_split, column.use_property_decorate = True, False
+    column.prop(obj.skinglow, "unit_mm", text="Unit, mm")
+    across = max(obj.dimensions) * unit_mm(obj, context.scene)
+    column.label(text=f"{obj.name} is {across:.4g} mm across", icon="DRIVER_DISTANCE")
 
 
-class SKINGLOW_PT_sidebar(_SkinPanel, bpy.types.Panel):  # noqa: N801  Blender's naming
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Skinglow"
+def _draw_progress(layout: bpy.types.UILayout) -> None:
+    measuring = measuring_now()
+    row = layout.row(align=True)
+    text = "Cancelling" if measuring.cancelled else f"Measuring: {measuring.done:.0%}"
+    if hasattr(row, "progress"):
+        row.progress(factor=measuring.done, text=text)
+    else:
+        row.label(text=text, icon="SORTTIME")
+    row.operator("skinglow.cancel_measuring", text="", icon="CANCEL")
 
 
-class SKINGLOW_PT_object(_SkinPanel, bpy.types.Panel):  # noqa: N801
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "object"
-    bl_options = {"DEFAULT_CLOSED"}
+class _Part:
+    """A part that is there for skins only."""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return context.object is not None and context.object.type == "MESH"
+        return is_skin(context.object)
 
 
-CLASSES = (SKINGLOW_PT_sidebar, SKINGLOW_PT_object)
+class _Look(_Part):
+    bl_label = "Look"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_look(self.layout, context.object.skinglow)
+
+
+class _Lights(_Part):
+    bl_label = "Lights"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_lights(self.layout, context.object, context)
+
+
+class _Thickness(_Part):
+    bl_label = "Thickness"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_thickness(self.layout, context.object, context)
+
+
+class _Lookup(_Part):
+    bl_label = "Lookup Table"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_lookup(self.layout, context.object.skinglow)
+
+
+class _Export(_Part):
+    bl_label = "Export"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        self.layout.operator("skinglow.export_povray", text="POV-Ray Scene", icon="EXPORT")
+
+
+class _Remove(_Part):
+    bl_label = "Reset and Remove"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        row = self.layout.row(align=True)
+        row.operator("skinglow.reset", text="Reset", icon="LOOP_BACK")
+        row.operator("skinglow.remove", text="Remove", icon="TRASH")
+
+
+#: Where the panels stand: name, and what Blender asks for.
+PLACES = (
+    ("sidebar", {"bl_space_type": "VIEW_3D", "bl_region_type": "UI", "bl_category": "Skinglow"}),
+    ("object", {"bl_space_type": "PROPERTIES", "bl_region_type": "WINDOW", "bl_context": "object"}),
+)
+PARTS = (_Look, _Lights, _Thickness, _Lookup, _Export, _Remove)
+
+
+def _panel_classes() -> list[type]:
+    made = []
+    for place, where in PLACES:
+        main = f"SKINGLOW_PT_{place}"
+        closed = {"bl_options": {"DEFAULT_CLOSED"}} if place == "object" else {}
+        made.append(type(main, (_Main, bpy.types.Panel), {**where, **closed, "bl_idname": main}))
+        for part in PARTS:
+            name = f"{main}{part.__name__.lower()}"
+            made.append(type(name, (part, bpy.types.Panel), {**where, "bl_idname": name, "bl_parent_id": main}))
+    return made
+
+
+CLASSES = (SKINGLOW_UL_lights, *_panel_classes())
 
 
 def register() -> None:

@@ -60,6 +60,13 @@ def read_geometry(obj: bpy.types.Object, scene: bpy.types.Scene) -> Geometry:
     )
 
 
+def is_measured(obj: bpy.types.Object, geometry: Geometry) -> bool:
+    """Whether the thickness that is stored was measured on this very geometry, or given."""
+    if THICKNESS_ATTRIBUTE not in obj.data.attributes:
+        return False
+    return obj.data.get(MEASURED_GEOMETRY) in (GIVEN, geometry.digest())
+
+
 def ensure_measured(
     obj: bpy.types.Object, scene: bpy.types.Scene, progress: Callable[[float], bool] | None = None
 ) -> bool:
@@ -67,16 +74,22 @@ def ensure_measured(
 
     Thicknesses that were given stay until they are measured on purpose ('Measure Thickness').
     """
-    check_mesh(obj)
-    if obj.data.get(MEASURED_GEOMETRY) == GIVEN and THICKNESS_ATTRIBUTE in obj.data.attributes:
-        return False
     geometry = read_geometry(obj, scene)
-    digest = geometry.digest()
-    if obj.data.get(MEASURED_GEOMETRY) == digest and THICKNESS_ATTRIBUTE in obj.data.attributes:
+    if is_measured(obj, geometry):
         return False
-    store(obj, measure(geometry, progress), geometry.unit_mm)
-    obj.data[MEASURED_GEOMETRY] = digest
+    store_measured(obj, scene, geometry, measure(geometry, progress))
     return True
+
+
+def store_measured(
+    obj: bpy.types.Object, scene: bpy.types.Scene, geometry: Geometry, thickness_mm: Sequence[float]
+) -> None:
+    """Stores what was measured on a geometry, and for which it was; raises SkinError if the mesh changed meanwhile."""
+    digest = geometry.digest()
+    if read_geometry(obj, scene).digest() != digest:
+        raise SkinError(f"'{obj.name}' was changed while its thickness was measured: measure it again")
+    store(obj, thickness_mm, geometry.unit_mm)
+    obj.data[MEASURED_GEOMETRY] = digest
 
 
 def measure(geometry: Geometry, progress: Callable[[float], bool] | None = None) -> np.ndarray:

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The settings of a skin as the panel's parts show them."""
+
+import bpy
+
+from .skin_settings import TISSUE_SLIDERS
+from .thickness_attribute import unit_mm
+
+
+def draw_look(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
+    """Mode, strength and what the mode is made of."""
+    layout.row().prop(settings, "mode", expand=True)
+    layout.use_property_split, layout.use_property_decorate = True, False
+    layout.prop(settings, "strength")
+    if settings.mode == "PAPER":
+        layout.prop(settings, "base")
+        if settings.base == "IMAGE":
+            layout.template_ID(settings, "base_image", open="image.open")
+        _draw_weights(layout, settings)
+    if settings.mode == "PHYSICAL" or (settings.mode == "PAPER" and settings.base == "SKIN"):
+        layout.prop(settings, "preset")
+        column = layout.column(align=True)
+        for name in TISSUE_SLIDERS:
+            column.prop(settings, name, slider=True)
+
+
+def _draw_weights(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
+    """Numbers rather than a swatch: the blood weight's are above 1, where swatches show white."""
+    for name, parts in (("blood_weight", "RGB"), ("attenuation", ("Constant", "Linear", "Quadratic"))):
+        column = layout.column(align=True)
+        column.label(text=settings.bl_rna.properties[name].name)
+        for i, part in enumerate(parts):
+            column.prop(settings, name, index=i, text=part)
+
+
+def draw_lookup(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
+    """The table's size, and where distances are measured."""
+    layout.use_property_split, layout.use_property_decorate = True, False
+    column = layout.column(align=True)
+    column.prop(settings, "max_thickness_mm", text="Thickest, mm")
+    column.prop(settings, "size")
+    if settings.mode != "EXISTING":
+        layout.prop(settings, "reference")
+        if settings.reference == "POINT":
+            layout.prop(settings, "reference_point")
+
+
+def draw_thickness(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context) -> None:
+    """How thickness is measured."""
+    layout.use_property_split, layout.use_property_decorate = True, False
+    column = layout.column(align=True)
+    column.prop(obj.skinglow, "unit_mm", text="Unit, mm")
+    column.prop(obj.skinglow, "rays")
+    column.prop(obj.skinglow, "min_openness", slider=True)
+    across = max(obj.dimensions) * unit_mm(obj, context.scene)
+    layout.label(text=f"{obj.name} is {across:.4g} mm across", icon="DRIVER_DISTANCE")
+    layout.operator("skinglow.bake", icon="DRIVER_DISTANCE")

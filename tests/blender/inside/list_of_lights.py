@@ -1,0 +1,134 @@
+"""The panel's list of lights: complete, the strongest first, and not computed again while nothing changed."""
+
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import skinglow_blender as sb
+from skinglow_blender import light_list, live_update
+
+from inside.scenes import depsgraph, lamp, patch
+
+sb.register()
+
+
+def skin():
+    obj = patch()
+    sb.make_skin(obj, thickness=[1.0] * 4)
+    return obj
+
+
+def redraw(obj):
+    """What draw() asks for, and what the timer then does; how many lists were filled."""
+    context = SimpleNamespace(
+        scene=bpy.context.scene, view_layer=bpy.context.view_layer, window_manager=bpy.context.window_manager
+    )
+    light_list.list_of(obj, context)
+    filled = light_list.fill_wanted()
+    return light_list.list_of(obj, context), filled
+
+
+def check_a_hundred_lamps(_work):
+    for i in range(100):
+        lamp(f"Lamp {i:03}", location=(0.0, 0.0, 1.0 + (i * 37) % 100), energy=0.0 if i % 10 == 0 else 1.0)
+    obj = skin()
+    lights, _filled = redraw(obj)
+    report = {row["name"]: row for row in sb.light_report(obj, depsgraph())}
+    assert len(lights.rows) == 100 and {row.name for row in lights.rows} == set(report)
+    shares = [row.share for row in lights.rows]
+    assert shares == sorted(shares, reverse=True) and shares[0] > 0.1
+    np.testing.assert_allclose(sum(shares), 1.0, rtol=1e-5)
+    for row in lights.rows:
+        np.testing.assert_allclose(row.weight, report[row.name]["weight"], rtol=1e-6)
+        assert row.reason == report[row.name]["reason"]
+    dark = [row for row in lights.rows if row.reason]
+    assert len(dark) == 10 and all("zero power" in row.reason for row in dark)
+    assert all(not row.reason for row in lights.rows[:90])
+
+
+def check_redraws_compute_nothing(_work):
+    lamp("Key")
+    obj = skin()
+    calls = []
+    report = light_list.light_report
+    light_list.light_report = lambda *given: calls.append(given) or report(*given)
+    try:
+        redraw(obj)
+        assert len(calls) == 1
+        looks = live_update.STATE.looks
+        depsgraph()
+        for _ in range(100):
+            assert redraw(obj)[1] == 0
+        assert len(calls) == 1
+        # Filling a list is no edit: it would call for the next filling without end.
+        depsgraph()
+        assert live_update.STATE.looks == looks
+        bpy.data.objects["Key"].location.z = 2.0
+        depsgraph()
+        lights, filled = redraw(obj)
+        assert filled == 1 and len(calls) == 2
+        np.testing.assert_allclose(lights.rows[0].distance, 2.0, rtol=1e-6)
+    finally:
+        light_list.light_report = report
+
+
+def check_the_list_follows_edits(_work):
+    key = lamp("Key")
+    obj = skin()
+    assert [row.name for row in redraw(obj)[0].rows] == ["Key"]
+    lamp("Bright", color=(5.0, 5.0, 5.0))
+    depsgraph()
+    lights = redraw(obj)[0]
+    assert [row.name for row in lights.rows] == ["Bright", "Key"]
+    lights.active = 1
+    key.name = "Main"
+    bpy.data.objects["Bright"].hide_set(True)
+    depsgraph()
+    lights = redraw(obj)[0]
+    assert [(row.name, row.reason) for row in lights.rows] == [("Main", ""), ("Bright", "hidden in the viewport")]
+    assert tuple(lights.rows[0].swatch) == (1.0, 1.0, 1.0)
+    bpy.data.objects.remove(key)
+    depsgraph()
+    lights = redraw(obj)[0]
+    assert [row.name for row in lights.rows] == ["Bright"] and lights.active == 0
+
+
+def check_the_chosen_lamp_stays_chosen(_work):
+    key, rim = lamp("Key"), lamp("Rim", color=(0.1, 0.1, 0.1))
+    obj = skin()
+    lights = redraw(obj)[0]
+    lights.active = 1
+    assert lights.rows[1].name == "Rim"
+    rim.data.color, key.data.color = (1.0, 1.0, 1.0), (0.1, 0.1, 0.1)
+    depsgraph()
+    lights = redraw(obj)[0]
+    assert lights.rows[0].name == "Rim" and lights.active == 0
+
+
+def check_a_list_for_each_skin_and_none_for_the_gone(_work):
+    lamp("Key")
+    first = skin()
+    redraw(first)
+    second = skin()
+    assert first.name != second.name
+    redraw(second)
+    redraw(first)
+    lists = bpy.context.window_manager.skinglow_lists
+    assert sorted(one.name for one in lists) == sorted((first.name, second.name))
+    bpy.data.objects.remove(first)
+    third = patch("Third")
+    sb.make_skin(third, thickness=[1.0] * 4)
+    redraw(third)
+    assert sorted(one.name for one in lists) == sorted((second.name, "Third"))
+
+
+def check_unregistering_leaves_no_list(_work):
+    lamp("Key")
+    redraw(skin())
+    sb.unregister()
+    try:
+        assert not hasattr(bpy.types.WindowManager, "skinglow_lists")
+        assert not any(name.startswith("skinglow") for name in bpy.context.window_manager.keys())
+    finally:
+        sb.register()
+    assert len(bpy.context.window_manager.skinglow_lists) == 0
