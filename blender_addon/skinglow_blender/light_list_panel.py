@@ -84,10 +84,11 @@ def _draw_ways(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.t
     column.prop(obj.skinglow, "weights")
     choice = choice_of(obj, context.view_layer.depsgraph)
     if choice.bound is not None:
-        shown = "each pixel" if choice.weights == "SURFACE" else "the object"
-        draw_wrapped(
-            column, f"One weight for {shown}; for the object it may be {choice.bound:.0%} off", context, "INFO"
-        )
+        if choice.weights == "SURFACE":
+            text = f"Weighed at each pixel; one weight for the object may be {choice.bound:.0%} off"
+        else:
+            text = f"Weighed once for the object, which may be {choice.bound:.0%} off"
+        draw_wrapped(column, text, context, "INFO")
     column.prop(context.scene.skinglow, "occlusion")
 
 

@@ -96,7 +96,7 @@ def _update_group(
     atlas = _atlas(group, mode)
     before = {key: (signature, atlas.rows.get(key)) for key, signature in atlas.signatures.items()}
     _compute(atlas, members, reading, faults)
-    if _fit_layout(group, atlas):
+    if _fit_layout(group, atlas, members):
         atlas = _atlas(group, mode)
         _compute(atlas, members, reading, faults)
     rebuilt = []
@@ -144,16 +144,20 @@ def _texels(table: Table, skin: Skin, atlas: Atlas) -> np.ndarray:
     return surface_row(columns, weight, table.lighting, depth_per_mm, atlas.layout)
 
 
-def _fit_layout(group: bpy.types.NodeTree, atlas: Atlas) -> bool:
+def _fit_layout(group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]]) -> bool:
     """Gives a group the nodes that its skins' light needs; whether that made the atlas worthless."""
-    wanted = atlas.layout if _has_surface_weights(group) else None
-    entries = max((len(table.colors) for table in atlas.tables.values()), default=1)
-    for table in atlas.tables.values():
-        if table.lighting is not None:
+    wanted = atlas.layout
+    tables = [atlas.tables[skin.key] for _obj, skin in members if skin.key in atlas.tables]
+    lit = [table for table in tables if table.lighting is not None]
+    if lit or wanted is not None:
+        entries = max((len(table.colors) for table in tables), default=1)
+        for table in lit:
             needed = layout_of(table.lighting, entries)
             wanted = needed if wanted is None else wanted.joined(needed)
-    if wanted is not None and wanted.entries < entries:
-        wanted = wanted._replace(entries=entries)
+        if not lit and not _has_surface_weights(group):
+            wanted = None
+        elif wanted.entries < entries:
+            wanted = wanted._replace(entries=entries)
     if wanted == atlas.layout or group.library is not None or (wanted is None and STATE.rendering):
         return False
     if STATE.rendering:

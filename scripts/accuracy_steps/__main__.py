@@ -12,6 +12,7 @@ import plots
 import skinglow as sg
 import studies
 import task
+import weights
 import worlds
 
 PROJECT = Path(__file__).resolve().parents[2]
@@ -128,6 +129,34 @@ def world_section() -> str:
     return page.table(heading, rows)
 
 
+def weights_section() -> str:
+    say("weights of lamps")
+    rows = [
+        [
+            e.rig,
+            percent(e.object_rms),
+            percent(e.object_bound),
+            percent(e.surface_rms),
+            percent(e.surface_worst),
+            str(e.terms),
+            f"{e.object_ms:.3f}",
+            f"{e.surface_ms:.3f}",
+            f"{e.exact_ms:.2f}",
+        ]
+        for e in weights.weight_errors()
+    ]
+    heading = ["rig", "one weight, RMS", "its bound", "each pixel, RMS", "worst", "terms"]
+    times = ["one weight, ms", "terms, ms", f"exact, {weights.VERTICES:,} places, ms"]
+    parts = [page.table([*heading, *times], rows)]
+    rows = [[s.setting, percent(s.error), f"{s.time_ms:.3f}"] for s in weights.term_steps()]
+    parts.append(page.table(["terms, of 40 lamps", "worst", "ms"], rows))
+    rows = [[s.setting, number(s.error), f"{s.time_ms:.2f}"] for s in weights.area_steps()]
+    parts.append(page.table(["tolerance of an area lamp's integral", "error", "us a lamp and place"], rows))
+    rows = [[s.setting, s.detail, number(s.error), f"{s.time_ms:.1f}"] for s in weights.culling_steps()]
+    parts.append(page.table(["tolerance of culling", "lamps kept", "lost", "ms"], rows))
+    return "\n\n".join(parts)
+
+
 def main() -> None:
     IMAGES.mkdir(parents=True, exist_ok=True)
     say("presets")
@@ -140,6 +169,7 @@ def main() -> None:
         "table": table_section(),
         "estimate": estimate_section(),
         "worlds": world_section(),
+        "weights": weights_section(),
     }
     page.fill(PROJECT / "docs" / "accuracy.md", sections)
     say("docs/accuracy.md and its figures are written")

@@ -1,0 +1,175 @@
+"""What simpler weights of lamps cost on a body the size of a head: error against run time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import skinglow as sg
+import task
+
+#: A ball of this radius, m, with skin of this depth: a head, seen by a lamp.
+RADIUS, DEPTH = 0.1, 0.004
+VERTICES = 2000
+SEED = 5
+
+
+@dataclass
+class WeightError:
+    """One way of weighing the lamps of one rig."""
+
+    rig: str
+    object_rms: float  #: of one weight for the object, over the mean of the irradiance there is
+    object_bound: float  #: largest difference that is proven, over the weight
+    surface_rms: float  #: of the material's formula
+    surface_worst: float  #: its largest difference, over the largest irradiance
+    terms: int
+    object_ms: float
+    surface_ms: float
+    exact_ms: float
+
+
+@dataclass
+class Step:
+    """One setting of a tolerance or a number."""
+
+    setting: str
+    error: float
+    time_ms: float
+    detail: str = ""
+
+
+def _sphere(count: int) -> np.ndarray:
+    """Unit normals on a spiral of equal areas."""
+    i = np.arange(count) + 0.5
+    z, turn = 1.0 - 2.0 * i / count, np.pi * (1.0 + 5.0**0.5) * i
+    r = np.sqrt(1.0 - z * z)
+    return np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
+
+
+NORMALS = _sphere(VERTICES)
+BOX = ((-RADIUS,) * 3, (RADIUS,) * 3)
+
+
+def _around(count: int, near: float, far: float, power: float = 20.0) -> list:
+    rng = np.random.default_rng(SEED)
+    places = _sphere(count) * rng.uniform(near, far, count)[:, None]
+    return [sg.Light(position=p, power=power, color=rng.uniform(0.2, 1.0, 3), radius=0.05) for p in places]
+
+
+def _towards(place: tuple[float, float, float], **settings: object) -> sg.Light:
+    return sg.Light(position=place, direction=tuple(-x for x in place), power=50.0, color=(1.0, 0.7, 0.4), **settings)
+
+
+RIGS: dict[str, list] = {
+    "a small lamp at 1 m": [_towards((0.0, 1.0, 0.0), kind="POINT")],
+    "the same at 0.3 m": [_towards((0.0, 0.3, 0.0), kind="POINT")],
+    "a soft lamp, radius 0.2 m, at 1 m": [_towards((0.0, 1.0, 0.0), kind="POINT", radius=0.2)],
+    "a spot of 30 degrees at 1 m": [_towards((0.0, 1.0, 0.0), kind="SPOT", spot_angle=0.52, spot_blend=0.3)],
+    "a soft box, 0.6 m by 0.4 m, at 0.7 m": [_towards((0.0, 0.7, 0.0), kind="AREA", size_x=0.6, size_y=0.4)],
+    "a disk of 1 m at 0.7 m": [_towards((0.0, 0.7, 0.0), kind="AREA", area_shape="DISK", size_x=1.0, size_y=1.0)],
+    "a sun": [_towards((0.0, 1.0, 0.0), kind="SUN")],
+    "three lamps at 0.8 to 2 m": _around(3, 0.8, 2.0),
+    "40 lamps at 1 to 4 m": _around(40, 1.0, 4.0),
+}
+
+
+def exact(lights: list, weight: sg.AngularWeight | None) -> np.ndarray:
+    """The irradiance on the far side at each vertex, with the skin's own angles."""
+    return sg.far_side_irradiance(lights, NORMALS * RADIUS, NORMALS, DEPTH, angular_weight=weight, threads=1)
+
+
+def shown(lights: list, weight: sg.AngularWeight, **settings: object) -> tuple[sg.SurfaceLighting, np.ndarray]:
+    """What the material works out at the same places."""
+    lighting = sg.SurfaceLighting(lights, *BOX, angular_weight=weight, **settings)
+    return lighting, lighting.irradiance(NORMALS * (RADIUS - DEPTH), -NORMALS)
+
+
+def _rms(difference: np.ndarray, truth: np.ndarray) -> float:
+    return float(np.sqrt((difference**2).mean()) / truth.mean())
+
+
+def weight_errors() -> list[WeightError]:
+    """Each rig by one weight for the object and by the material's formula."""
+    weight = sg.skin_angular_weight(task.THREE_LAYERS)
+    found = []
+    for name, lights in RIGS.items():
+        truth, exact_ms = task.timed(lambda lights=lights: exact(lights, weight))
+        one, object_ms = task.timed(lambda lights=lights: sg.irradiance(lights, (0.0, 0.0, 0.0)))
+        (lighting, surface), _ = task.timed(lambda lights=lights: shown(lights, weight))
+        _, surface_ms = task.timed(lambda lights=lights: sg.SurfaceLighting(lights, *BOX, angular_weight=weight))
+        bound = sg.object_irradiance_error(lights, (0, 0, 0), *BOX, ((0, 0, 1), np.pi))
+        found.append(
+            WeightError(
+                name,
+                _rms(one - truth, truth),
+                float(bound.max() / one.max()),
+                _rms(surface - truth, truth),
+                float(np.abs(surface - truth).max() / truth.max()),
+                len(lighting.terms),
+                object_ms,
+                surface_ms,
+                exact_ms,
+            )
+        )
+    return found
+
+
+def term_steps() -> list[Step]:
+    """40 lamps with more and more terms; the others shine from far away."""
+    weight = sg.skin_angular_weight(task.THREE_LAYERS)
+    lights = RIGS["40 lamps at 1 to 4 m"]
+    truth = exact(lights, weight)
+    steps = []
+    for most in (0, 1, 2, 4, 8, 16, 40):
+        (_, surface), _ = task.timed(lambda most=most: shown(lights, weight, max_terms=most))
+        _, ms = task.timed(lambda most=most: sg.SurfaceLighting(lights, *BOX, angular_weight=weight, max_terms=most))
+        steps.append(Step(str(most), float(np.abs(surface - truth).max() / truth.max()), ms))
+    return steps
+
+
+def area_steps() -> list[Step]:
+    """Ellipses and spreads have an integral with a tolerance; 200 places, each integral against one at 1e-12."""
+    rng = np.random.default_rng(SEED)
+    lamps = [
+        _towards((0.0, 0.7, 0.0), kind="AREA", area_shape="DISK", size_x=1.0, size_y=0.6),
+        _towards((0.3, 0.5, 0.2), kind="AREA", size_x=0.5, size_y=0.5, spread=1.2),
+    ]
+    points, normals = rng.uniform(-RADIUS, RADIUS, (200, 3)), _sphere(200)
+
+    def at(tolerance: float) -> Callable[[], np.ndarray]:
+        return lambda: sg.surface_irradiance(lamps, points, normals, tolerance=tolerance, threads=1)
+
+    truth = at(1e-12)()
+    steps = []
+    for tolerance in (1e-1, 1e-3, 1e-5, 1e-7, 1e-9):
+        values, ms = task.timed(at(tolerance))
+        steps.append(Step(f"{tolerance:g}", float(np.abs(values - truth).max() / truth.max()), ms / 400 * 1e3))
+    return steps
+
+
+def culling_steps() -> list[Step]:
+    """10,000 lamps of which some hundred matter: what is kept, what that loses at most and what it did lose."""
+    rng = np.random.default_rng(SEED)
+    lights = _around(100, 1.0, 3.0, 100.0) + _around(9900, 20.0, 200.0, 0.5)
+    order = rng.permutation(len(lights))
+    lights = [lights[i] for i in order]
+    points, facing = NORMALS[::4] * RADIUS, -NORMALS[::4]
+    everything, all_ms = task.timed(lambda: sg.surface_irradiance(lights, points, facing, threads=1))
+    whole = float(sg.irradiance(lights, (0, 0, 0)).max())
+    tree = sg.LightTree(lights)
+    steps = [Step("0 (all lamps)", 0.0, all_ms, f"{len(lights)}")]
+    for tolerance in (1e-4, 1e-3, 1e-2, 1e-1):
+        result = tree.cull(*BOX, tolerance * whole)
+        kept = [lights[k] for k in result["kept"]]
+
+        def cut(tolerance: float = tolerance) -> np.ndarray:
+            chosen = tree.cull(*BOX, tolerance * whole)["kept"]
+            return sg.surface_irradiance([lights[k] for k in chosen], points, facing, threads=1)
+
+        values, ms = task.timed(cut)
+        lost = float(np.abs(values - everything).max() / whole)
+        detail = f"{len(kept)}; bound {float(result['bound'].max()) / whole:.1e}"
+        steps.append(Step(f"{tolerance:g}", lost, ms, detail))
+    return steps
