@@ -7,7 +7,7 @@ import pytest
 from hosts import HERE, Host, hosts_here, run_module
 
 #: Seconds that a module may take, where it is more than the rest.
-SECONDS = {"rendered_eevee": 300, "world": 300}
+SECONDS = {"rendered_eevee": 300}
 
 
 def checks() -> list[tuple[str, str]]:
