@@ -182,7 +182,7 @@ def check_mirror_ball(work):
 
 def check_bright_spot(work):
     """Nine coefficients are not all of a sun: what they are off by is measured, and the object weight is exact."""
-    stage(256)
+    stage(4096)
     height = 256
     d = directions(height)
     toward = np.array((0.6, 0.0, 0.8))

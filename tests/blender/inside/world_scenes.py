@@ -41,6 +41,9 @@ def image_world(image, strength=1.0, projection="EQUIRECTANGULAR"):
     texture.image, texture.projection = image, projection
     tree.links.new(texture.outputs["Color"], light.inputs["Color"])
     tree.links.new(light.outputs[0], output.inputs["Surface"])
+    # Cycles' own choice is a larger map, which takes seconds to fill.
+    settings = bpy.context.scene.world.cycles
+    settings.sampling_method, settings.sample_map_resolution = "MANUAL", 256
     return tree, light, texture
 
 
