@@ -17,7 +17,7 @@ from inside.batch_studio import (
     shown_in,
     studio,
 )
-from inside.scenes import TABLE_1, lamp
+from inside.scenes import TABLE_1, depsgraph, lamp
 
 
 def check_rig_file_is_placed_and_removed(work):
@@ -155,4 +155,24 @@ def check_another_scene_and_linked_lamps(work):
     for name, color in (("Key", (1, 0, 0)), ("Fill", (0, 0, 1))):
         picture = shown_in(work / f"other/{name}/0001.exr")
         np.testing.assert_allclose(picture, expected((color, 1.0)), rtol=1e-5, err_msg=name)
+    assert_same(before)
+
+
+def check_light_at_each_pixel_has_room_for_every_rig(work):
+    """Weights on the surface need nodes by the number of lamps, which cannot be made while rendering."""
+    _, obj = studio()
+    many = bpy.data.collections.new("many")
+    bpy.context.scene.collection.children.link(many)
+    for number in range(6):
+        place = (np.cos(number), np.sin(number), 0.3)
+        lamp(f"Many {number}", "AREA", location=place, collection=many)
+    depsgraph()
+    for obj_lamp in many.objects:
+        obj_lamp.hide_viewport = True
+    before = everything()
+    obj.skinglow.mode, obj.skinglow.weights = "PHYSICAL", "SURFACE"
+    result = sb.render_batch(work / "surface", 1, ["warm", "many", DATA / "all_kinds.json"])
+    assert result.failed == (), result
+    assert [e["skins"][0]["weights"] for e in manifest_of(work / "surface")] == ["SURFACE"] * 3
+    obj.skinglow.mode, obj.skinglow.weights = "PAPER", "AUTO"
     assert_same(before)
