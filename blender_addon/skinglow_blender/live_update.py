@@ -59,7 +59,7 @@ STATE = LiveState()
 def update_scene(depsgraph: bpy.types.Depsgraph, only_live: bool = False) -> list[Rebuilt]:
     """Recomputes and shows what changed for this depsgraph; faults are kept in STATE.faults and do not stop others.
 
-    A skin with a fault keeps its last good table. With only_live, skins that are not set to follow are left.
+    A skin with a fault keeps its last good table. With only_live, skins that are not set to follow show what they did.
     """
     STATE.looks += 1
     faults: dict[str, str] = {}
@@ -67,8 +67,6 @@ def update_scene(depsgraph: bpy.types.Depsgraph, only_live: bool = False) -> lis
     rebuilt: list[Rebuilt] = []
     groups: dict[str, tuple[bpy.types.NodeTree, list[tuple[bpy.types.Object, Skin]]]] = {}
     for obj, skin in reading.skins:
-        if only_live and not skin.live:
-            continue
         group = obj.skinglow.group
         if group is None:
             faults[skin.key] = f"{skin.name}: its node group is gone; make the skin again"
@@ -76,7 +74,7 @@ def update_scene(depsgraph: bpy.types.Depsgraph, only_live: bool = False) -> lis
         groups.setdefault(group.name_full, (group, []))[1].append((obj, skin))
     for group, members in groups.values():
         try:
-            rebuilt += _update_group(group, members, reading, depsgraph.mode, faults)
+            rebuilt += _update_group(group, members, reading, depsgraph.mode, only_live, faults)
         except SkinError as error:
             for _obj, skin in members:
                 faults[skin.key] = f"{skin.name}: {error}"
@@ -89,16 +87,20 @@ def _update_group(
     members: list[tuple[bpy.types.Object, Skin]],
     reading: SceneReading,
     mode: str,
+    only_live: bool,
     faults: dict[str, str],
 ) -> list[Rebuilt]:
     _separate_rows(group, members)
     _make_room(group, max(skin.base[1] for _obj, skin in members), 1 + max(o.skinglow.row for o, _skin in members))
     atlas = _atlas(group, mode)
     before = {key: (signature, atlas.rows.get(key)) for key, signature in atlas.signatures.items()}
-    _compute(atlas, members, reading, faults)
+    other = STATE.atlases.get((group.name_full, "RENDER" if mode == "VIEWPORT" else "VIEWPORT"))
+    kept = _keep(atlas, other, members) if only_live else set()
+    _compute(atlas, members, kept, reading, faults)
     if _fit_layout(group, atlas, members):
-        atlas = _atlas(group, mode)
-        _compute(atlas, members, reading, faults)
+        old, atlas = atlas, _atlas(group, mode)
+        kept = _keep(atlas, old, members) if only_live else set()
+        _compute(atlas, members, kept, reading, faults)
     rebuilt = []
     for obj, skin in members:
         table = atlas.tables.get(skin.key)
@@ -118,12 +120,29 @@ def _update_group(
     return rebuilt
 
 
+def _keep(atlas: Atlas, other: Atlas | None, members: list[tuple[bpy.types.Object, Skin]]) -> set[str]:
+    """Keys of the skins that do not follow the lamps and so keep what they show: here, or else in the other atlas."""
+    kept = set()
+    for key in [skin.key for _obj, skin in members if not skin.live]:
+        if key not in atlas.tables and other is not None and key in other.tables:
+            atlas.tables[key], atlas.signatures[key] = other.tables[key], other.signatures[key]
+        if key in atlas.tables:
+            kept.add(key)
+    return kept
+
+
 def _compute(
-    atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]], reading: SceneReading, faults: dict[str, str]
+    atlas: Atlas,
+    members: list[tuple[bpy.types.Object, Skin]],
+    kept: set[str],
+    reading: SceneReading,
+    faults: dict[str, str],
 ) -> None:
     """Computes the tables whose signature changed; a skin with a fault keeps its last one."""
     room = atlas.layout if STATE.rendering else None
     for _obj, skin in members:
+        if skin.key in kept:
+            continue
         signature = signature_of(skin, reading.lamps, reading.world)
         if atlas.signatures.get(skin.key) == signature:
             continue

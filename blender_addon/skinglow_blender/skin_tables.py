@@ -80,6 +80,30 @@ def lamps_of(skin: Skin, lamps: list[Lamp]) -> list[Lamp]:
     return [lamp.seen_by(skin.key) for lamp in lamps if not lamp.left_out and lamp.lights(skin.name)]
 
 
+def lights_of(skin: Skin, lamps: list[Lamp]) -> list[Any]:
+    """The core's lamps that reach this skin; raises ValueError, naming lamp and field, where the core refuses one."""
+    found = lamps_of(skin, lamps)
+    return _made_lights.of(tuple(lamp.signature for lamp in found), found)
+
+
+class _MadeLights:
+    """The lamps made last: most skins of a scene are lit by the same ones."""
+
+    def __init__(self) -> None:
+        self.signatures: tuple | None = None
+        self.lights: list[Any] = []
+
+    def of(self, signatures: tuple, lamps: list[Lamp]) -> list[Any]:
+        # The same tuples, so that comparing them is a matter of addresses.
+        if signatures != self.signatures:
+            self.signatures, self.lights = None, [make_light(lamp) for lamp in lamps]
+            self.signatures = signatures
+        return self.lights
+
+
+_made_lights = _MadeLights()
+
+
 def world_irradiance(world: World | None) -> tuple[float, float, float]:
     """What the world brings to a skin of mode physical, W/m^2; zeros without one."""
     return world.irradiance if world is not None else (0.0, 0.0, 0.0)
@@ -95,7 +119,7 @@ def compute_table(skin: Skin, lamps: list[Lamp], world: World | None, room: Layo
     if skin.mode == "EXISTING":
         colors = sg.six_gaussian_lookup(base.size, base.max_thickness_mm)
         return Table(colors, base.texel_mapping, None, colors[:, :, None] * np.eye(3))
-    lights = [make_light(lamp) for lamp in lamps_of(skin, lamps)]
+    lights = lights_of(skin, lamps)
     choice, lighting = OBJECT_WEIGHT, None
     if skin.mode == "PAPER":
         weight = np.add(skin.blood_weight, sg.light_weight(lights, skin.point, skin.attenuation))

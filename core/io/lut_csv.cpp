@@ -7,6 +7,7 @@
 #include "io/atomic_file.h"
 #include "io/file_error.h"
 #include "io/lut_format.h"
+#include "io/parse_number.h"
 
 namespace skinglow {
 namespace {

@@ -198,3 +198,26 @@ def check_view_layers_have_lamps_of_their_own(work):
         scene.render.filepath = str(work / f"{layer}.exr")
         bpy.ops.render.render(write_still=True)
         np.testing.assert_allclose(read_exr(work / f"{layer}.exr")[2, 2], paper_table(lamps)[0], rtol=1e-5)
+
+
+def check_a_skin_that_does_not_follow_renders_what_it_shows(work):
+    """Live off, on a material with a skin that follows: its row is in the render's image too."""
+    material = black_material()
+    key = lamp("Key", location=(0.0, 0.0, 4.0))
+    follows = patch("Follows", size=1.0, location=(-0.5, 0.0, 0.0), material=material)
+    stays = patch("Stays", size=1.0, location=(0.5, 0.0, 0.0), material=material)
+    for obj in (follows, stays):
+        sb.make_skin(obj, thickness=[0.0] * 4, mode="paper", reference_point=(0, 0, 0))
+    stays.skinglow.live = False
+    depsgraph()
+    before = sb.lut(stays, depsgraph())[0]
+    key.data.color = (0.0, 0.0, 1.0)
+    depsgraph()
+    camera_above(2.0)
+    scene = render_settings(2, 1)
+    scene.render.filepath = str(work / "stays.exr")
+    bpy.ops.render.render(write_still=True)
+    picture = read_exr(scene.render.filepath)[0]
+    np.testing.assert_allclose(picture[1], before, rtol=1e-5)
+    np.testing.assert_allclose(picture[0], sb.lut(follows, depsgraph())[0], rtol=1e-5)
+    assert abs(picture[0] - picture[1]).max() > 0.01
