@@ -59,6 +59,7 @@ std::vector<double> tile_middles(AreaShape shape, int count) {
         return {-4.0 / (3.0 * pi), 4.0 / (3.0 * pi)};
     }
     std::vector<double> middles;
+    middles.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) middles.push_back((2.0 * i + 1.0) / count - 1.0);
     return middles;
 }
@@ -79,6 +80,7 @@ std::vector<SurfaceTerm> area_terms(const PreparedLight& light, const glm::dvec3
     term.constant = 0.0;
     term.by_sine = area.spreads() ? -1.0 / std::tan(area.half_spread()) : 0.0;
     std::vector<SurfaceTerm> terms;
+    terms.reserve(along.size() * across.size());
     for (const double x : along) {
         for (const double y : across) {
             term.place = light.position() + scale * (x * area.half_x() * light.frame()[0] +
