@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The lookups of all skins in one image, a row for each, and how new pixels reach the renderers.
 
-Cycles never reads an image again that it has loaded. So an image that is being shown is never written: the idle one
-of a pair is, and is then put in its place. Viewport and render see different lights, so each has a pair of its own,
-and coming back from a render shows the viewport's again without computing anything.
+Cycles never reads an image again that it has loaded. So where it may be looking an image that is shown is not written:
+the idle one of a pair is, and is then put in its place. Viewport and render see different lights, so each has a pair of
+its own, and coming back from a render shows the viewport's again without computing anything.
 """
 
 from typing import Any
@@ -166,21 +166,41 @@ class Atlas:
         self.is_dirty = True
 
     def write(self, group: bpy.types.NodeTree) -> None:
-        """Brings the rows into the image that no renderer has read."""
-        if self.was_shown:
+        """Brings the rows into an image that no renderer holds a copy of."""
+        if self.was_shown and (self.mode == "RENDER" or is_rendered_in_view()):
             self.front = 1 - self.front
             self.was_shown = False
         image = image_pair(group, self.mode)[self.front]
         image.pixels.foreach_set(self.pixels.ravel())
         self.is_dirty = False
-        if bpy.app.background:
-            # There, Blender 3.4 keeps the texture that EEVEE made of the pixels before.
-            image.gl_free()
+        # The texture that EEVEE made of the pixels before.
+        image.gl_free()
 
     def show(self, group: bpy.types.NodeTree) -> None:
         """Puts the image that is up to date into the node, if it is not there."""
         show_image(group, image_pair(group, self.mode)[self.front])
         self.was_shown = True
+
+
+#: Engines that draw images from textures, which are made anew.
+DRAWING_ENGINES = ("BLENDER_EEVEE", "BLENDER_EEVEE_NEXT", "BLENDER_WORKBENCH")
+
+
+def is_rendered_in_view() -> bool:
+    """Whether Cycles, or another renderer that may keep what it has read, shows a scene in a window.
+
+    Anything else begins afresh when it is asked for. Swapping images is what a changed lamp costs most: Blender brings
+    every material with the group up to date.
+    """
+    if bpy.app.background:
+        return False
+    for window in bpy.context.window_manager.windows:
+        if window.scene.render.engine in DRAWING_ENGINES:
+            continue
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D" and area.spaces.active.shading.type == "RENDERED":
+                return True
+    return False
 
 
 def read_row(image: bpy.types.Image, row: int) -> np.ndarray:

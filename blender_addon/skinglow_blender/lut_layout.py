@@ -83,7 +83,8 @@ def _step(count: int) -> int:
 
 def plain_row(colors: np.ndarray, width: int) -> np.ndarray:
     """A row (width, 4) of colours (size, 3); the last goes on to the edge."""
-    row = np.ones((width, 4), np.float32)
+    row = np.empty((width, 4), np.float32)
+    row[:, 3] = 1.0
     row[: len(colors), :3] = colors
     row[len(colors) :, :3] = colors[-1]
     return row

@@ -58,7 +58,7 @@ def signature_of(skin: Skin, lamps: list[Lamp], world: World | None) -> Signatur
     """What decides a skin's table in its mode, and nothing else."""
     if skin.mode == "EXISTING":
         return Signature(skin.mode, skin.base)
-    lights = tuple(lamp.signature for lamp in lamps_of(skin, lamps))
+    lights = _reaching.of(skin, lamps).signatures
     if skin.mode == "PAPER":
         return Signature(skin.mode, skin.base, skin.blood_weight, skin.attenuation, skin.point, lights=lights)
     light = world_irradiance(world)
@@ -75,33 +75,56 @@ def signature_of(skin: Skin, lamps: list[Lamp], world: World | None) -> Signatur
     )
 
 
+class Lit(NamedTuple):
+    """The lamps that reach a skin, as far as it sees them."""
+
+    lamps: list[Lamp]
+    signatures: tuple[tuple, ...]
+
+    @classmethod
+    def by(cls, lamps: list[Lamp]) -> "Lit":
+        """By all of these."""
+        return cls(lamps, tuple(lamp.signature for lamp in lamps))
+
+
+class _Reaching:
+    """Remembers one reading's lamps, and what was made of them: most skins of a scene are lit by the same ones."""
+
+    def __init__(self) -> None:
+        self.lamps: list[Lamp] | None = None
+        self.everyone: Lit | None = None  #: of every skin; None where it depends on the skin
+        self.made_of: tuple | None = None
+        self.made: list[Any] = []
+
+    def of(self, skin: Skin, lamps: list[Lamp]) -> Lit:
+        if lamps is not self.lamps:
+            self.lamps, shining = lamps, [lamp for lamp in lamps if not lamp.left_out]
+            choosy = any(lamp.receivers is not None or lamp.excluded or lamp.visible for lamp in shining)
+            self.everyone = None if choosy else Lit.by(shining)
+        if self.everyone is not None:
+            return self.everyone
+        return Lit.by([lamp.seen_by(skin.key) for lamp in lamps if not lamp.left_out and lamp.lights(skin.name)])
+
+    def lights(self, skin: Skin, lamps: list[Lamp]) -> list[Any]:
+        found = self.of(skin, lamps)
+        # Mostly the same tuples, so that comparing them is a matter of addresses.
+        if found.signatures != self.made_of:
+            self.made_of, self.made = None, [make_light(lamp) for lamp in found.lamps]
+            self.made_of = found.signatures
+        return self.made
+
+
+_reaching = _Reaching()
+
+
 def lamps_of(skin: Skin, lamps: list[Lamp]) -> list[Lamp]:
     """The lamps that reach this skin, as far as it sees them."""
-    return [lamp.seen_by(skin.key) for lamp in lamps if not lamp.left_out and lamp.lights(skin.name)]
+    return _reaching.of(skin, lamps).lamps
 
 
 def lights_of(skin: Skin, lamps: list[Lamp]) -> list[Any]:
     """The core's lamps that reach this skin; raises ValueError, naming lamp and field, where the core refuses one."""
-    found = lamps_of(skin, lamps)
-    return _made_lights.of(tuple(lamp.signature for lamp in found), found)
-
-
-class _MadeLights:
-    """The lamps made last: most skins of a scene are lit by the same ones."""
-
-    def __init__(self) -> None:
-        self.signatures: tuple | None = None
-        self.lights: list[Any] = []
-
-    def of(self, signatures: tuple, lamps: list[Lamp]) -> list[Any]:
-        # The same tuples, so that comparing them is a matter of addresses.
-        if signatures != self.signatures:
-            self.signatures, self.lights = None, [make_light(lamp) for lamp in lamps]
-            self.signatures = signatures
-        return self.lights
-
-
-_made_lights = _MadeLights()
+    return _reaching.lights(skin, lamps)
 
 
 def world_irradiance(world: World | None) -> tuple[float, float, float]:
