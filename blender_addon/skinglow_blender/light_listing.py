@@ -11,7 +11,7 @@ from .occlusion import with_visible_shares
 from .scene_lights import Lamp, make_light
 from .scene_reading import Skin, read_scene, read_skin
 from .scene_world import World
-from .skin import skin_settings_of
+from .skin import skin_settings_of, table_of
 
 
 def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[dict[str, Any]]:
@@ -22,6 +22,8 @@ def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[
     weight    (3,) float64: colour times attenuation in modes existing and paper; irradiance, W/m^2, in mode physical
     distance  from the skin's reference point, scene units; 0 for a sun and the world, None for a lamp that is not in
               the depsgraph
+    angle     between the lamp's axis and the reference point, radians; 0 for a point lamp, a sun and the world, None
+              for a lamp that is not in the depsgraph
     share     of the sum of all weights, 0 to 1
     visible   share of its light that other objects let through to the skin's far side, 0 to 1; 1 unless the scene's
               occlusion is on and the mode physical
@@ -33,7 +35,8 @@ def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[
     skin = read_skin(evaluated, evaluated.matrix_world)
     reading = read_scene(depsgraph)._replace(skins=[(obj, skin)])
     lamps = with_visible_shares(reading, depsgraph, {}).lamps
-    rows = [_row(skin, lamp) for lamp in lamps]
+    far = _far_lamps(obj, depsgraph)
+    rows = [_row(skin, lamp, far) for lamp in lamps]
     if reading.world is not None:
         rows.append(_world_row(skin, reading.world))
     total = sum(float(np.sum(row["weight"])) for row in rows)
@@ -42,77 +45,72 @@ def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[
     seen = {lamp.name for lamp in lamps}
     for other in depsgraph.scene.objects:
         if other.type == "LIGHT" and other.name not in seen:
-            rows.append(
-                {
-                    "name": other.name,
-                    "kind": other.data.type,
-                    "weight": np.zeros(3),
-                    "distance": None,
-                    "share": 0.0,
-                    "visible": 1.0,
-                    "reason": _why_hidden(other, depsgraph),
-                    "note": "",
-                }
-            )
+            hidden = _entry(other.name, other.data.type, reason=_why_hidden(other, depsgraph))
+            rows.append(hidden | {"distance": None, "angle": None})
     return rows
 
 
-def _row(skin: Skin, lamp: Lamp) -> dict[str, Any]:
+def _entry(name: str, kind: str, reason: str = "", note: str = "") -> dict[str, Any]:
+    """A row of something that gives nothing."""
+    return {
+        "name": name,
+        "kind": kind,
+        "weight": np.zeros(3),
+        "distance": 0.0,
+        "angle": 0.0,
+        "share": 0.0,
+        "visible": 1.0,
+        "reason": reason,
+        "note": note,
+    }
+
+
+def _far_lamps(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> frozenset[str]:
+    """Names of the lamps that have no term of their own where the light is worked out at each pixel."""
+    table = table_of(obj, depsgraph)
+    return table.far_lamps if table is not None else frozenset()
+
+
+def _row(skin: Skin, lamp: Lamp, far: frozenset[str]) -> dict[str, Any]:
     sg = core()
-    weight, distance, reason = np.zeros(3), None, lamp.left_out
-    visible, note = lamp.visible.get(skin.key, 1.0), lamp.note
+    visible = lamp.visible.get(skin.key, 1.0)
+    notes = [lamp.note]
     if 0.0 < visible < 1.0:
-        note = "; ".join(filter(None, (note, f"other objects let {visible:.1%} of it through")))
-    if not reason and not lamp.lights(skin.name):
-        reason = "light linking keeps it from this object"
+        notes.append(f"other objects let {visible:.1%} of it through")
+    if lamp.name in far:
+        notes.append("beyond the material's terms: it shines as if from far away")
+    row = _entry(lamp.name, lamp.signature[1], lamp.left_out, "; ".join(filter(None, notes)))
+    row["visible"] = visible
+    if not row["reason"] and not lamp.lights(skin.name):
+        row["reason"] = "light linking keeps it from this object"
     try:
         light = make_light(lamp.seen_by(skin.key))
         found = sg.light_report([light], skin.point)[0]
-        distance = found["distance"]
-        if not reason:
-            if skin.mode == "PHYSICAL":
-                weight = np.asarray(found["weight"], dtype=np.float64)
-            else:
-                weight = sg.light_weights([light], skin.point, skin.attenuation)[0]
-            if not np.any(weight):
-                reason = (
-                    "occluded"
-                    if visible == 0.0
-                    else found["state"]
-                    if found["state"] != "shines"
-                    else "its attenuation is 0"
-                )
     except ValueError as error:
-        reason = reason or str(error)
-    return {
-        "name": lamp.name,
-        "kind": lamp.signature[1],
-        "weight": weight,
-        "distance": distance,
-        "share": 0.0,
-        "visible": visible,
-        "reason": reason,
-        "note": note,
-    }
+        return row | {"distance": None, "angle": None, "reason": row["reason"] or str(error)}
+    row["distance"], row["angle"] = found["distance"], found["axis_angle"]
+    if row["reason"]:
+        return row
+    if skin.mode == "PHYSICAL":
+        row["weight"] = np.asarray(found["weight"], dtype=np.float64)
+    else:
+        row["weight"] = sg.light_weights([light], skin.point, skin.attenuation)[0]
+    if not np.any(row["weight"]):
+        row["reason"] = "occluded" if visible == 0.0 else found["state"]
+        if row["reason"] == "shines":
+            row["reason"] = "its attenuation is 0"
+    return row
 
 
 def _world_row(skin: Skin, world: World) -> dict[str, Any]:
-    weight, reason, note = np.zeros(3), world.left_out, world.unfollowed
+    row = _entry(world.name, "WORLD", world.left_out, world.unfollowed)
     if skin.mode != "PHYSICAL":
-        reason = "the paper's formula knows no world"
-    elif not reason:
-        weight, note = np.array(world.irradiance), world.note
-        if not weight.any():
-            reason = note or "its colour or strength is 0"
-    return {
-        "name": world.name,
-        "kind": "WORLD",
-        "weight": weight,
-        "distance": 0.0,
-        "share": 0.0,
-        "reason": reason,
-        "note": note,
-    }
+        row["reason"] = "the paper's formula knows no world"
+    elif not row["reason"]:
+        row["weight"], row["note"] = np.array(world.irradiance), world.note
+        if not row["weight"].any():
+            row["reason"] = world.note or "its colour or strength is 0"
+    return row
 
 
 def _why_hidden(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> str:

@@ -16,7 +16,7 @@ from .scene_reading import ROW_PROPERTY, read_skin
 from .skin_group import clear
 from .skin_material import add_to_materials, remove_from_material
 from .skin_settings import SETTING_NAMES, apply_settings
-from .skin_tables import OBJECT_WEIGHT, WeightsChoice
+from .skin_tables import OBJECT_WEIGHT, Table, WeightsChoice
 
 
 class SkinState(NamedTuple):
@@ -97,11 +97,16 @@ def state_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SkinState
     )
 
 
-def choice_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> WeightsChoice:
-    """Whether a skin shows the object's weight or weights on the surface, and what that would cost or saves."""
+def table_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Table | None:
+    """The table that a skin shows in a depsgraph of this mode; None before the first update."""
     group = obj.original.skinglow.group
     atlas = STATE.atlases.get((group.name_full, depsgraph.mode)) if group is not None else None
-    table = atlas.tables.get(obj.original.name_full) if atlas is not None else None
+    return atlas.tables.get(obj.original.name_full) if atlas is not None else None
+
+
+def choice_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> WeightsChoice:
+    """Whether a skin shows the object's weight or weights on the surface, and what that would cost or saves."""
+    table = table_of(obj, depsgraph)
     return table.choice if table is not None else OBJECT_WEIGHT
 
 
@@ -135,7 +140,7 @@ def lut(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
         image = pair[atlas.front]
     if image is None:
         raise SkinError(f"'{obj.name}': the image of its lookup is gone; make the skin again")
-    table = atlas.tables.get(obj.original.name_full) if atlas is not None else None
+    table = table_of(obj, depsgraph)
     if table is not None:
         size = len(table.colors)
     else:

@@ -38,6 +38,7 @@ class Table(NamedTuple):
     columns: np.ndarray  #: (size, 3, 3): M(d)
     choice: WeightsChoice = OBJECT_WEIGHT
     lighting: Any = None  #: a skinglow.SurfaceLighting, where the light is worked out at each pixel
+    far_lamps: frozenset[str] = frozenset()  #: names of the lamps that it has no term for
 
 
 class Signature(NamedTuple):
@@ -143,7 +144,7 @@ def compute_table(skin: Skin, lamps: list[Lamp], world: World | None, room: Layo
         colors = sg.six_gaussian_lookup(base.size, base.max_thickness_mm)
         return Table(colors, base.texel_mapping, None, colors[:, :, None] * np.eye(3))
     lights = lights_of(skin, lamps)
-    choice, lighting = OBJECT_WEIGHT, None
+    choice, lighting, far = OBJECT_WEIGHT, None, frozenset()
     if skin.mode == "PAPER":
         weight = np.add(skin.blood_weight, sg.light_weight(lights, skin.point, skin.attenuation))
     else:
@@ -151,12 +152,13 @@ def compute_table(skin: Skin, lamps: list[Lamp], world: World | None, room: Layo
         choice = _choose_weights(skin, lights, world, irradiance)
         if choice.weights == "SURFACE":
             lighting = _lighting(skin, lights, world, room)
+            far = frozenset(lights[i].name for i in lighting.far_lights)
         # Light that leaves diffusely: the radiance is the flux per area over pi.
         weight = irradiance / math.pi
     colors = sg.recolour(base, weight)
     if np.abs(colors).max() > np.finfo(np.float32).max:
         raise SkinError(f"{skin.name}: the lookup is brighter than an image can hold; turn the lights down")
-    return Table(colors, base.texel_mapping, tuple(float(w) for w in weight), base.matrices, choice, lighting)
+    return Table(colors, base.texel_mapping, tuple(float(w) for w in weight), base.matrices, choice, lighting, far)
 
 
 def _choose_weights(skin: Skin, lights: list, world: World | None, irradiance: np.ndarray) -> WeightsChoice:

@@ -110,6 +110,8 @@ def check_more_lamps_than_terms(work):
     assert off < 0.05, off
     group = bpy.data.objects["Patch"].skinglow.group
     assert tuple(group["skinglow_layout"]) == (256, 8, 0, 1)
+    notes = [row["note"] for row in sb.light_report(bpy.data.objects["Patch"], depsgraph())]
+    assert sum("far away" in note for note in notes) == 4, notes
     return off
 
 

@@ -111,7 +111,7 @@ def check_reset(_work):
 def check_bake(_work):
     lamp("Key")
     obj = skin_ball()
-    thickness_attribute.store(obj, [3.0] * len(obj.data.vertices))
+    thickness_attribute.store(obj, [3.0] * len(obj.data.vertices), unit_mm=1000.0)
 
     def before():
         assert (thickness_of(the_ball()) == 3.0).all()
