@@ -58,6 +58,10 @@ def lookup_materials(ear: ear_scene.Ear) -> dict[str, Any]:
         "paper": shading.lookup_skin("paper", [paper], MAX_THICKNESS_MM, None, 1.0),
         "object": shading.lookup_skin("object", [one_weight], MAX_THICKNESS_MM, None, matt),
         "surface": shading.lookup_skin("surface", columns, MAX_THICKNESS_MM, ear_scene.FAR_SIDE, matt),
+        # No mode: the same with another measure of thickness, to see what that changes.
+        "surface_open": shading.lookup_skin(
+            "surface_open", columns, MAX_THICKNESS_MM, ear_scene.FAR_SIDE_OPEN, matt, ear_scene.THICKNESS_OPEN
+        ),
     }
 
 
@@ -80,7 +84,7 @@ def main() -> dict[str, Any]:
     for name in (ear_scene.FACTS, ear_scene.FAR_SIDE):
         shading.wear(ear.head, shading.shown_attribute(name))
         render(name, LOOKUP_SAMPLES)
-    step("four lookups")
+    step("the lookups")
     materials, ear.cpu_seconds["tables"] = shading.timed(lambda: lookup_materials(ear))
     for name, material in materials.items():
         shading.wear(ear.head, material)

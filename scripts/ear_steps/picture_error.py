@@ -38,6 +38,14 @@ class Reference:
         spread = float(squares.std() / np.sqrt(len(squares)))
         return Error(rms, spread / (2.0 * rms) if rms > 0.0 else float("inf"))
 
+    def error_at_best(self, picture: np.ndarray) -> Error:
+        """Of a picture at the strength with which it comes nearest."""
+        return self.error(self.best_factor(picture) * picture)
+
+    def only(self, some: np.ndarray) -> Reference:
+        """Of some of the pixels, (n,) bool."""
+        return Reference(self.first[some], self.second[some])
+
     @property
     def noise(self) -> float:
         """What is left in the mean of the two seeds, as an error of the same kind."""

@@ -122,18 +122,25 @@ def _lookup(tree: bpy.types.NodeTree, table: np.ndarray, place: bpy.types.NodeSo
 
 
 def lookup_skin(
-    name: str, tables: list[np.ndarray], max_thickness_mm: float, weight: str | None, strength: float
+    name: str,
+    tables: list[np.ndarray],
+    max_thickness_mm: float,
+    weight: str | None,
+    strength: float,
+    thickness: str = THICKNESS,
 ) -> bpy.types.Material:
     """A black surface that gives the light coming through.
 
     tables  one (n, 3) lookup over thickness; or three, the columns of M(d), for the channels of the attribute `weight`
     """
     material, tree, surface = _empty(name)
+    # Else Cycles may take every triangle for a lamp, which costs more than the picture; here it lights nothing else.
+    material.cycles.emission_sampling = "NONE"
     scale, offset = sg.BaseLut(tables[0][:, 0], max_thickness_mm).texel_mapping
     along = tree.nodes.new("ShaderNodeMath")
     along.operation = "MULTIPLY_ADD"
     along.inputs[1].default_value, along.inputs[2].default_value = scale, offset
-    tree.links.new(_attribute(tree, THICKNESS).outputs["Fac"], along.inputs[0])
+    tree.links.new(_attribute(tree, thickness).outputs["Fac"], along.inputs[0])
     place = tree.nodes.new("ShaderNodeCombineXYZ")
     place.inputs["Y"].default_value = 0.5
     tree.links.new(along.outputs[0], place.inputs["X"])
