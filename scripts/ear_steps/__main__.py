@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 from pathlib import Path
+from typing import Any
 
 STEPS = Path(__file__).resolve().parent
 # First its own folder, then the page filler of scripts/accuracy before the demo's page.
@@ -35,6 +37,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--size", type=int, default=160, metavar="PIXELS", help="width and height (default 160)")
     parser.add_argument("--samples", type=int, default=1024, help="of each of the two reference walks (default 1024)")
     parser.add_argument("--out", type=Path, default=Path("out/ear"), help="where the pictures go (default out/ear)")
+    parser.add_argument("--reuse", action="store_true", help="render nothing: the pictures that are in --out")
     parser.add_argument("--no-docs", action="store_true", help="leave docs/accuracy.md alone; figures go to --out")
     options = parser.parse_args()
     if options.size < 32 or options.samples < 64:
@@ -58,8 +61,19 @@ def find_head(options: argparse.Namespace, progress: Progress) -> head_source.He
 def main() -> None:
     options = arguments()
     out: Path = options.out.resolve()
+    kept = out / "numbers.json"
+    if options.reuse and not kept.is_file():
+        sys.exit(f"skinglow: {kept} is not there: run scripts/accuracy_ear without --reuse first")
     out.mkdir(parents=True, exist_ok=True)
     progress = Progress(out / "ear.log")
+    if not options.reuse:
+        kept.write_text(json.dumps(render(options, out, progress), indent=1))
+    report(options, Study(out, json.loads(kept.read_text())), out)
+    progress.say("done" if options.no_docs else "done: docs/accuracy.md and its pictures of the ear are written")
+
+
+def render(options: argparse.Namespace, out: Path, progress: Progress) -> dict[str, Any]:
+    """Leaves all pictures in `out`; returns what they cost and what they are of."""
     head = find_head(options, progress)
     host = blender_host.Host.find(options.blender)
     job = {
@@ -75,8 +89,10 @@ def main() -> None:
     numbers = host.run(str(STEPS / "ear_job.py"), job, progress)
     numbers["head"] = f"{head.name} ({head.licence})"
     numbers["samples"] = options.samples
-    study = Study(out, numbers)
+    return numbers
 
+
+def report(options: argparse.Namespace, study: Study, out: Path) -> None:
     images = out if options.no_docs else IMAGES
     ear_plots.error_against_time(images / "ear_error.png", study)
     ear_plots.row_of_pictures(images / "ear_pictures.png", study)
@@ -88,7 +104,6 @@ def main() -> None:
     print("\n\n".join(sections.values()), flush=True)
     if not options.no_docs:
         page.fill(PROJECT / "docs" / "accuracy.md", sections)
-    progress.say(f"done: {images}/ear_*.png" + ("" if options.no_docs else " and docs/accuracy.md"))
 
 
 if __name__ == "__main__":

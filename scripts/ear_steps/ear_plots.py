@@ -10,6 +10,7 @@ from study import METHODS, Study
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  after the choice of what it draws with
+from matplotlib.ticker import LogLocator, PercentFormatter, StrMethodFormatter  # noqa: E402
 
 # Colours that stay apart for colour-blind eyes (M. Okabe, K. Ito, "Color Universal Design", 2008), and marks besides.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000")
@@ -26,15 +27,25 @@ MARGIN = 6
 def error_against_time(path: Path, study: Study) -> None:
     figure, axes = plt.subplots(figsize=(7.5, 5))
     cost = study.cost
-    errors = [m.at_best.rms for m in study.methods] + [m.as_it_is.rms for m in study.methods[2:]]
-    low, high = 0.7 * min(errors), max(2.0 * cost.error_of_one / np.sqrt(study.counts[0]), 2.0)
-    along = np.geomspace(low, high, 100)
-    axes.loglog([cost.seconds_to(e) for e in along], along, "-", color=COLOURS[4], linewidth=1, label="its noise")
+    along = np.geomspace(0.9 * study.walk_errors[-1].rms, 1.1 * study.walk_errors[0].rms, 100)
+    axes.loglog(
+        [cost.seconds_to(e) for e in along],
+        along,
+        "-",
+        color=COLOURS[4],
+        linewidth=1,
+        label="its noise, falling as the root of its samples",
+    )
     axes.loglog(study.walk_seconds, [e.rms for e in study.walk_errors], MARKS[4], color=COLOURS[4], label="random walk")
     for result, colour, mark in zip(study.methods, COLOURS, MARKS, strict=False):
         axes.loglog(result.seconds, result.at_best.rms, mark, color=colour, markersize=9, label=METHODS[result.name])
         if result.name in ("object", "surface"):
             axes.loglog(result.seconds, result.as_it_is.rms, mark, color=colour, markersize=9, fillstyle="none")
+    # Plain numbers in place of powers of ten; drawing on log axes resets this, so it comes last.
+    for axis, form in ((axes.xaxis, StrMethodFormatter("{x:g}")), (axes.yaxis, PercentFormatter(1.0, decimals=0))):
+        axis.set_major_formatter(form)
+        axis.set_minor_formatter(form)
+        axis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
     axes.set_xlabel("CPU time of the render, s")
     axes.set_ylabel("RMS error over the mean")
     axes.set_title("The back-lit ear against the converged walk\n(filled: at the best strength; hollow: as it is)")

@@ -71,7 +71,7 @@ def thickness(study: Study) -> str:
             f"{b.pixels}",
             f"{100 * b.share_of_light:.0f} %",
             f"{100 * b.share_of_error:.0f} %",
-            f"{b.walk_over['surface']:.2f} ± {b.standard_error:.2f}",
+            f"{b.walk_over['surface']:.2f} ± {b.standard_error:.3f}",
             f"{b.walk_over['view']:.2f}",
             f"{b.walk_over['object']:.2f}",
         ]
@@ -79,8 +79,9 @@ def thickness(study: Study) -> str:
     ]
     heading = ["thickness, mm", "pixels", "of the walk's light", "of surface weights' squared error"]
     heading += ["red of the walk over surface weights", "over the slab at the view's angle", "over object weight"]
-    limits = [[limit.name, percent(limit.error)] for limit in study.limits()]
-    return "\n\n".join([page.table(heading, rows), page.table(["what would come nearer", "error"], limits)])
+    limits = [[limit.name, percent(limit.error), percent(limit.thin)] for limit in study.limits()]
+    at_best = ["what would come nearer", "error at its best strength", f"of skin up to {THIN_MM:g} mm"]
+    return "\n\n".join([page.table(heading, rows), page.table(at_best, limits)])
 
 
 def slab(study: Study) -> str:

@@ -39,6 +39,7 @@ class Limit:
 
     name: str
     error: Error
+    thin: Error  # of skin up to THIN_MM alone
 
 
 @dataclass
@@ -70,6 +71,8 @@ class Study:
         self.cost: WalkCost = walk_cost(
             np.array(self.counts), np.array(self.walk_seconds), np.array([e.rms for e in self.walk_errors])
         )
+        self.is_thin = self.thickness <= THIN_MM
+        self.thin_reference = self.reference.only(self.is_thin)
         self.methods = [self._method(name) for name in METHODS]
 
     def of(self, name: str) -> np.ndarray:
@@ -86,7 +89,7 @@ class Study:
             factor=factor,
             at_best=self.reference.error_at_best(pixels),
             brightness=float(pixels.mean() / self.reference.mean.mean()),
-            thin=self.reference.only(self.thickness <= THIN_MM).error_at_best(pixels[self.thickness <= THIN_MM]),
+            thin=self.thin_reference.error_at_best(pixels[self.is_thin]),
             bounced=self.bounced.error_at_best(pixels),
         )
 
@@ -104,16 +107,21 @@ class Study:
         return ((1 - s) * low + s * high) * self.of("ear_far_side") / np.pi
 
     def limits(self) -> list[Limit]:
-        seen, fitted = self.by_view(), fitted_by_thickness(self.thickness, self.reference)
-        factor = self.reference.best_factor(seen)
-        opened = self.of("surface_open")
-        open_factor = self.reference.best_factor(opened)
+        """Each at its best strength, as the modes are."""
+        pictures = {
+            "surface weights, thickness to any far side, however dark": self.of("surface_open"),
+            "surface weights, slab seen at each pixel's angle": self.by_view(),
+            "the best table over thickness there is: fitted to the walk": fitted_by_thickness(
+                self.thickness, self.reference
+            ),
+        }
         return [
-            Limit("surface weights, thickness to any far side, however dark", self.reference.error(opened)),
-            Limit(f"the same, times {open_factor:.2f}", self.reference.error(open_factor * opened)),
-            Limit("surface weights, slab seen at each pixel's angle", self.reference.error(seen)),
-            Limit(f"the same, times {factor:.2f}", self.reference.error(factor * seen)),
-            Limit("the best table over thickness there is (fitted to the walk itself)", self.reference.error(fitted)),
+            Limit(
+                name,
+                self.reference.error_at_best(pixels),
+                self.thin_reference.error_at_best(pixels[self.is_thin]),
+            )
+            for name, pixels in pictures.items()
         ]
 
     def bins(self) -> list[Bin]:
