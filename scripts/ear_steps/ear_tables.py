@@ -12,6 +12,8 @@ def percent(error: Error) -> str:
 
 
 def seconds(value: float) -> str:
+    if value < 0.1:
+        return f"{1e3 * value:.1f} ms"
     return f"{value:.2f} s" if value < 10 else f"{value:.0f} s"
 
 
