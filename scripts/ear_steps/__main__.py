@@ -1,0 +1,113 @@
+"""The back-lit ear by every method and by random walk, into docs/accuracy.md. scripts/accuracy_ear sets up first."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+STEPS = Path(__file__).resolve().parent
+# First its own folder, then the page filler of scripts/accuracy before the demo's page.
+sys.path[1:1] = [str(STEPS.parent / "accuracy_steps"), str(STEPS.parent / "demo_steps")]
+
+import blender_host  # noqa: E402
+import ear_plots  # noqa: E402
+import ear_tables  # noqa: E402
+import head_source  # noqa: E402
+import page  # noqa: E402
+from progress import DemoError, Progress  # noqa: E402
+from study import Study  # noqa: E402
+
+PROJECT = STEPS.parents[1]
+IMAGES = PROJECT / "docs" / "images"
+SCAN = PROJECT.parent / "shared" / "data" / "heads" / "LeePerrySmith.glb"
+CREDIT = "Infinite, 3D Head Scan by Lee Perry-Smith (www.triplegangers.com), CC BY 3.0"
+
+
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="scripts/accuracy_ear",
+        description="The back-lit ear by every mode and by Cycles' random walk in the same medium: error and CPU time.",
+    )
+    parser.add_argument("--head", metavar="FILE", help="GLB, OBJ or PLY (default: the scan, else MakeHuman's)")
+    parser.add_argument("--unit", type=float, metavar="MM", help="millimetres per unit of the file")
+    parser.add_argument("--blender", metavar="PROGRAM", help="a Blender program or a Python with bpy")
+    parser.add_argument("--size", type=int, default=160, metavar="PIXELS", help="width and height (default 160)")
+    parser.add_argument("--samples", type=int, default=1024, help="of each of the two reference walks (default 1024)")
+    parser.add_argument("--out", type=Path, default=Path("out/ear"), help="where the pictures go (default out/ear)")
+    parser.add_argument("--reuse", action="store_true", help="render nothing: the pictures that are in --out")
+    parser.add_argument("--no-docs", action="store_true", help="leave docs/accuracy.md alone; figures go to --out")
+    options = parser.parse_args()
+    if options.size < 32 or options.samples < 64:
+        parser.error("--size is at least 32, --samples at least 64: below there is nothing to measure")
+    return options
+
+
+def find_head(options: argparse.Namespace, progress: Progress) -> head_source.Head:
+    """The head asked for, else the scan where it is kept beside the project, else MakeHuman's."""
+    mesh = options.head
+    if mesh is None and SCAN.is_file():
+        mesh = str(SCAN)
+    elif mesh is None:
+        progress.say(f"no scan at {SCAN}: taking MakeHuman's head; the page's figures are of the scan (--head FILE)")
+    head = head_source.find(mesh, options.unit, progress)
+    if mesh is not None and Path(mesh).name == SCAN.name:
+        head.licence = CREDIT
+    return head
+
+
+def main() -> None:
+    options = arguments()
+    out: Path = options.out.resolve()
+    kept = out / "numbers.json"
+    if options.reuse and not kept.is_file():
+        sys.exit(f"skinglow: {kept} is not there: run scripts/accuracy_ear without --reuse first")
+    out.mkdir(parents=True, exist_ok=True)
+    progress = Progress(out / "ear.log")
+    if not options.reuse:
+        kept.write_text(json.dumps(render(options, out, progress), indent=1))
+    report(options, Study(out, json.loads(kept.read_text())), out)
+    progress.say("done" if options.no_docs else "done: docs/accuracy.md and its pictures of the ear are written")
+
+
+def render(options: argparse.Namespace, out: Path, progress: Progress) -> dict[str, Any]:
+    """Leaves all pictures in `out`; returns what they cost and what they are of."""
+    head = find_head(options, progress)
+    host = blender_host.Host.find(options.blender)
+    job = {
+        **head.job(),
+        "package": str(blender_host.PACKAGE) if host.is_full_program else None,
+        "size": options.size,
+        "samples": options.samples,
+        "slab_samples": 256,
+        # From the noisiest worth drawing to half of a reference.
+        "walk_samples": [n for n in (4, 16, 64, 256, 1024) if n <= options.samples // 2],
+        "out": str(out),
+    }
+    numbers = host.run(str(STEPS / "ear_job.py"), job, progress)
+    numbers["head"] = f"{head.name} ({head.licence})"
+    numbers["samples"] = options.samples
+    return numbers
+
+
+def report(options: argparse.Namespace, study: Study, out: Path) -> None:
+    images = out if options.no_docs else IMAGES
+    ear_plots.error_against_time(images / "ear_error.png", study)
+    ear_plots.row_of_pictures(images / "ear_pictures.png", study)
+    sections = {
+        "ear": ear_tables.compared(study),
+        "ear_thickness": ear_tables.thickness(study),
+        "ear_slab": ear_tables.slab(study),
+    }
+    print("\n\n".join(sections.values()), flush=True)
+    if not options.no_docs:
+        page.fill(PROJECT / "docs" / "accuracy.md", sections)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except DemoError as error:
+        sys.exit(f"skinglow: {error}")

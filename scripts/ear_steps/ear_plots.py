@@ -1,0 +1,85 @@
+"""The figures of the ear: error against time, and the pictures side by side."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from study import METHODS, Study
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  after the choice of what it draws with
+from matplotlib.ticker import LogLocator, PercentFormatter, StrMethodFormatter  # noqa: E402
+
+# Colours that stay apart for colour-blind eyes (M. Okabe, K. Ito, "Color Universal Design", 2008), and marks besides.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000")
+MARKS = ("o", "s", "^", "D", "v")
+TITLES = {
+    "existing": "existing",
+    "paper": "paper",
+    "object": "physical,\nobject weight",
+    "surface": "physical,\nsurface weights",
+}
+MARGIN = 6
+
+
+def error_against_time(path: Path, study: Study) -> None:
+    figure, axes = plt.subplots(figsize=(7.5, 5))
+    cost = study.cost
+    along = np.geomspace(0.9 * study.walk_errors[-1].rms, 1.1 * study.walk_errors[0].rms, 100)
+    axes.loglog(
+        [cost.seconds_to(e) for e in along],
+        along,
+        "-",
+        color=COLOURS[4],
+        linewidth=1,
+        label="its noise, falling as the root of its samples",
+    )
+    axes.loglog(study.walk_seconds, [e.rms for e in study.walk_errors], MARKS[4], color=COLOURS[4], label="random walk")
+    for result, colour, mark in zip(study.methods, COLOURS, MARKS, strict=False):
+        axes.loglog(result.seconds, result.at_best.rms, mark, color=colour, markersize=9, label=METHODS[result.name])
+        if result.name in ("object", "surface"):
+            axes.loglog(result.seconds, result.as_it_is.rms, mark, color=colour, markersize=9, fillstyle="none")
+    # Plain numbers in place of powers of ten; drawing on log axes resets this, so it comes last.
+    for axis, form in ((axes.xaxis, StrMethodFormatter("{x:g}")), (axes.yaxis, PercentFormatter(1.0, decimals=0))):
+        axis.set_major_formatter(form)
+        axis.set_minor_formatter(form)
+        axis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
+    axes.set_xlabel("CPU time of the render, s")
+    axes.set_ylabel("RMS error over the mean")
+    axes.set_title("The back-lit ear against the converged walk\n(filled: at the best strength; hollow: as it is)")
+    axes.legend()
+    axes.grid(True, which="both", alpha=0.3)
+    figure.tight_layout()
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+
+
+def row_of_pictures(path: Path, study: Study) -> None:
+    """Each method at its best strength beside a walk given the same time, and the converged walk."""
+    rows, columns = np.nonzero(study.ear)
+    height, width = study.ear.shape
+    box = (
+        slice(max(0, rows.min() - MARGIN), min(height, rows.max() + MARGIN)),
+        slice(max(0, columns.min() - MARGIN), min(width, columns.max() + MARGIN)),
+    )
+    exposure = 0.9 / np.percentile(study.reference.mean[:, 0], 97)
+    shown = {TITLES[m.name]: m.factor * study.pictures[m.name] for m in study.methods}
+    shown["random walk,\nequal time"] = study.pictures["equal_time"]
+    shown["random walk,\nconverged"] = 0.5 * (study.pictures["reference_1"] + study.pictures["reference_2"])
+    aspect = (box[0].stop - box[0].start) / (box[1].stop - box[1].start)
+    figure, axes = plt.subplots(1, len(shown), figsize=(2 * len(shown), 2 * aspect + 0.7))
+    for ax, (title, picture) in zip(axes, shown.items(), strict=True):
+        ax.imshow(to_screen(exposure * picture[box][:, :, :3]), interpolation="nearest")
+        ax.set_title(title, fontsize=10)
+        ax.axis("off")
+    figure.tight_layout()
+    figure.savefig(path, dpi=130)
+    plt.close(figure)
+
+
+def to_screen(linear: np.ndarray) -> np.ndarray:
+    """Linear Rec.709 to sRGB's curve (IEC 61966-2-1), clipped to what a screen shows."""
+    light = np.clip(linear, 0.0, 1.0)
+    return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
