@@ -57,6 +57,21 @@ std::vector<Lamp> lamps_that_shine(std::span<const Light> lights, const Box& box
     return lamps;
 }
 
+/// Scales a lamp's terms so that they are exact where the box's middle faces it: that takes most of the error
+/// away.
+void calibrate(Lamp& lamp, const glm::dvec3& middle) {
+    const glm::dvec3 facing = lamp.light.to_light(middle);
+    double sum = 0;
+    for (const SurfaceTerm& term : lamp.terms) sum += largest(term.irradiance(middle, facing, lambert_cubic));
+    const double exact =
+        lamp.light.irradiance(middle, facing, default_area_tolerance) * largest(lamp.strength);
+    if (!(sum > 0.0) || !(exact > 0.0)) return;
+    // A middle on a spread's rim is no measure of the lamp.
+    const double factor = exact / sum;
+    if (factor < 0.5 || factor > 2.0) return;
+    for (SurfaceTerm& term : lamp.terms) term.strength *= factor;
+}
+
 /// Cuts a lamp and finds how far off its terms are.
 void cut(Lamp& lamp, std::size_t tiling, const Box& box) {
     auto [columns, rows] = tilings[tiling];
@@ -66,17 +81,27 @@ void cut(Lamp& lamp, std::size_t tiling, const Box& box) {
     lamp.terms = surface_terms(lamp.light, lamp.strength, box.middle(), columns, rows);
     lamp.error = 0;
     if (lamp.light.kind() != LightKind::area) return;
-    for (const glm::dvec3& place : telling_places(box, lamp.light)) {
-        const glm::dvec3 facing = lamp.light.to_light(place);
-        glm::dvec3 sum = -lamp.light.irradiance(place, facing, 1e-3) * lamp.strength;
-        for (const SurfaceTerm& term : lamp.terms) sum += term.irradiance(place, facing, lambert_cubic);
+    calibrate(lamp, box.middle());
+    const auto measure = [&](const glm::dvec3& place, const glm::dvec3& normal) {
+        glm::dvec3 sum = -lamp.light.irradiance(place, normal, 1e-3) * lamp.strength;
+        for (const SurfaceTerm& term : lamp.terms) sum += term.irradiance(place, normal, lambert_cubic);
         lamp.error = std::max(lamp.error, largest(sum));
+    };
+    for (const glm::dvec3& place : telling_places(box, lamp.light))
+        measure(place, lamp.light.to_light(place));
+    // Tilted by 60 degrees, as the horizon runs through a near lamp there.
+    const glm::dvec3 facing = lamp.light.to_light(box.middle());
+    const glm::dmat3& frame = lamp.light.frame();
+    for (const glm::dvec3& side : {frame[0], -frame[0], frame[1], -frame[1]}) {
+        const glm::dvec3 across = side - glm::dot(side, facing) * facing;
+        if (glm::length(across) > 1e-3)
+            measure(box.middle(), 0.5 * facing + std::sqrt(0.75) * glm::normalize(across));
     }
 }
 
 std::size_t most_tilings(const Lamp& lamp) {
     if (!lamp.light.area()) return 1;
-    return lamp.light.area()->shape() == AreaShape::ellipse ? 3 : tilings.size();
+    return lamp.light.area()->shape() == AreaShape::ellipse ? 4 : tilings.size();
 }
 
 /// Cuts the lamp with the largest error further, as long as that matters and there is room.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <numbers>
 
 namespace skinglow {
@@ -51,26 +52,43 @@ SurfaceTerm ball_term(const PreparedLight& light, const glm::dvec3& strength, co
     return term;
 }
 
-/// Middles of the tiles along one half axis, in units of it: even ones of a rectangle, the halves' centres of
-/// mass of an ellipse (4 / (3 pi) of the radius).
-std::vector<double> tile_middles(AreaShape shape, int count) {
-    if (shape == AreaShape::ellipse) {
-        if (count < 2) return {0.0};
-        return {-4.0 / (3.0 * pi), 4.0 / (3.0 * pi)};
+using Tiles = std::vector<glm::dvec2>;
+
+/// Middles of even tiles of a rectangle, in units of its half axes.
+Tiles rectangle_tiles(int columns, int rows) {
+    Tiles tiles;
+    tiles.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    for (int i = 0; i < columns; ++i) {
+        for (int j = 0; j < rows; ++j)
+            tiles.emplace_back((2.0 * i + 1.0) / columns - 1.0, (2.0 * j + 1.0) / rows - 1.0);
     }
-    std::vector<double> middles;
-    middles.reserve(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) middles.push_back((2.0 * i + 1.0) / count - 1.0);
-    return middles;
+    return tiles;
+}
+
+/// Centres of mass of even pieces of a unit disk: the whole, halves, quarters, or an inner and an outer ring
+/// of quarters each. A sector of half angle a between radii p and r has its own at 2 sin(a) / (3 a) (r^3 -
+/// p^3) / (r^2 - p^2).
+Tiles disk_tiles(int columns, int rows) {
+    const double half = 4.0 / (3.0 * pi);
+    if (columns * rows == 1) return {{0.0, 0.0}};
+    if (columns * rows == 2)
+        return columns == 2 ? Tiles{{-half, 0.0}, {half, 0.0}} : Tiles{{0.0, -half}, {0.0, half}};
+    if (columns * rows == 4) return {{-half, -half}, {-half, half}, {half, -half}, {half, half}};
+    const double inner_radius = std::sqrt(0.5);
+    const double inner = half * inner_radius;
+    // The outer quarters stand between the inner ones, on the axes.
+    const double outer = half * std::sqrt(2.0) * 2.0 * (1.0 - inner_radius * inner_radius * inner_radius);
+    return {{-inner, -inner}, {-inner, inner}, {inner, -inner}, {inner, inner},
+            {-outer, 0.0},    {outer, 0.0},    {0.0, -outer},   {0.0, outer}};
 }
 
 std::vector<SurfaceTerm> area_terms(const PreparedLight& light, const glm::dvec3& strength, int columns,
                                     int rows) {
     const AreaEmitter& area = *light.area();
     const double scale = light.area_scale();
-    const std::vector<double> along = tile_middles(area.shape(), columns);
-    const std::vector<double> across = tile_middles(area.shape(), rows);
-    const auto count = static_cast<double>(along.size() * across.size());
+    const Tiles tiles =
+        area.shape() == AreaShape::ellipse ? disk_tiles(columns, rows) : rectangle_tiles(columns, rows);
+    const auto count = static_cast<double>(tiles.size());
     SurfaceTerm term;
     term.against_axis = -light.direction();
     // On its axis a disk of this radius gives P / (pi (d^2 + r^2)).
@@ -80,13 +98,11 @@ std::vector<SurfaceTerm> area_terms(const PreparedLight& light, const glm::dvec3
     term.constant = 0.0;
     term.by_sine = area.spreads() ? -1.0 / std::tan(area.half_spread()) : 0.0;
     std::vector<SurfaceTerm> terms;
-    terms.reserve(along.size() * across.size());
-    for (const double x : along) {
-        for (const double y : across) {
-            term.place = light.position() + scale * (x * area.half_x() * light.frame()[0] +
-                                                     y * area.half_y() * light.frame()[1]);
-            terms.push_back(term);
-        }
+    terms.reserve(tiles.size());
+    for (const glm::dvec2& tile : tiles) {
+        term.place = light.position() + scale * (tile.x * area.half_x() * light.frame()[0] +
+                                                 tile.y * area.half_y() * light.frame()[1]);
+        terms.push_back(term);
     }
     return terms;
 }

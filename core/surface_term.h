@@ -42,7 +42,7 @@ struct SurfaceTerm {
                           const AngularCubic& angular) const;
 };
 
-/// A lamp as terms: one, or for an area lamp columns x rows tiles (of an ellipse at most 2 x 2).
+/// A lamp as terms: one, or for an area lamp columns x rows tiles (of an ellipse 1, 2, 4 or 8).
 /// @param strength  power times colour; @param middle  of the object, where a ball is exact
 std::vector<SurfaceTerm> surface_terms(const PreparedLight& light, const glm::dvec3& strength,
                                        const glm::dvec3& middle, int columns = 1, int rows = 1);

@@ -61,12 +61,11 @@ def read_lamp(obj: bpy.types.Object, matrix: Matrix, name: str) -> Lamp:
     if stops != 0.0:
         power *= core().exposure_factor(stops)
 
-    along = matrix.col[2]
-    direction = (-along[0], -along[1], -along[2])
+    (_, _, ax, px), (_, _, ay, py), (_, _, az, pz), _ = matrix
+    direction = (-ax, -ay, -az)
     shape = tuple(_shape(light, kind, matrix).items())
-    where = matrix.col[3]
     normalized = blender_version.light_is_normalized(light)
-    signature = (name, kind, color, power, (where[0], where[1], where[2]), direction, shape, normalized, 1.0)
+    signature = (name, kind, color, power, (px, py, pz), direction, shape, normalized, 1.0)
     receivers, excluded = _linked_objects(obj)
     why_dark = _why_dark(obj, kind, direction)
     return Lamp(

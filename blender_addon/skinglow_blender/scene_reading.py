@@ -160,6 +160,8 @@ def _reference_point(obj: bpy.types.Object, matrix: Matrix) -> tuple[float, floa
         origin = matrix.col[3]
         return origin[0], origin[1], origin[2]
     # In double precision: mathutils rounds to single, which would show in the last digits of the distances.
-    corner, opposite = obj.bound_box[0], obj.bound_box[6]
-    x, y, z = ((a + b) / 2.0 for a, b in zip(corner, opposite, strict=True))
-    return tuple(row[0] * x + row[1] * y + row[2] * z + row[3] for row in matrix)[:3]
+    box = obj.bound_box
+    (ax, ay, az), (bx, by, bz) = box[0], box[6]
+    x, y, z = (ax + bx) / 2.0, (ay + by) / 2.0, (az + bz) / 2.0
+    (a, b, c, d), (e, f, g, h), (i, j, k, m), _ = matrix
+    return a * x + b * y + c * z + d, e * x + f * y + g * z + h, i * x + j * y + k * z + m

@@ -19,6 +19,10 @@ from .skin_settings import TISSUE_SLIDERS
 AUTO_TOLERANCE = 0.05
 
 
+#: The largest number of an image's pixels.
+BRIGHTEST = float(np.finfo(np.float32).max)
+
+
 class WeightsChoice(NamedTuple):
     """Which weights a skin shows."""
 
@@ -156,7 +160,7 @@ def compute_table(skin: Skin, lamps: list[Lamp], world: World | None, room: Layo
         # Light that leaves diffusely: the radiance is the flux per area over pi.
         weight = irradiance / math.pi
     colors = sg.recolour(base, weight)
-    if np.abs(colors).max() > np.finfo(np.float32).max:
+    if max(colors.max(), -colors.min()) > BRIGHTEST:
         raise SkinError(f"{skin.name}: the lookup is brighter than an image can hold; turn the lights down")
     return Table(colors, base.texel_mapping, tuple(float(w) for w in weight), base.matrices, choice, lighting, far)
 
