@@ -89,13 +89,14 @@ void cut(Lamp& lamp, std::size_t tiling, const Box& box) {
     };
     for (const glm::dvec3& place : telling_places(box, lamp.light))
         measure(place, lamp.light.to_light(place));
-    // Tilted by 60 degrees, as the horizon runs through a near lamp there.
+    // Tilted by 60 and 90 degrees, where the horizon runs through a near lamp.
     const glm::dvec3 facing = lamp.light.to_light(box.middle());
     const glm::dmat3& frame = lamp.light.frame();
     for (const glm::dvec3& side : {frame[0], -frame[0], frame[1], -frame[1]}) {
         const glm::dvec3 across = side - glm::dot(side, facing) * facing;
-        if (glm::length(across) > 1e-3)
-            measure(box.middle(), 0.5 * facing + std::sqrt(0.75) * glm::normalize(across));
+        if (glm::length(across) < 1e-3) continue;
+        measure(box.middle(), 0.5 * facing + std::sqrt(0.75) * glm::normalize(across));
+        measure(box.middle(), glm::normalize(across));
     }
 }
 
