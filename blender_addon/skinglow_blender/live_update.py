@@ -96,11 +96,13 @@ def _update_group(
     before = {key: (signature, atlas.rows.get(key)) for key, signature in atlas.signatures.items()}
     other = STATE.atlases.get((group.name_full, "RENDER" if mode == "VIEWPORT" else "VIEWPORT"))
     kept = _keep(atlas, other, members) if only_live else set()
-    _compute(atlas, members, kept, reading, faults)
+    # Nodes are not made while rendering, nor in a library's group.
+    fixed = STATE.rendering or group.library is not None
+    _compute(atlas, members, kept, reading, faults, fixed)
     if _fit_layout(group, atlas, members):
         old, atlas = atlas, _atlas(group, mode)
         kept = _keep(atlas, old, members) if only_live else set()
-        _compute(atlas, members, kept, reading, faults)
+        _compute(atlas, members, kept, reading, faults, fixed)
     rebuilt = []
     for obj, skin in members:
         table = atlas.tables.get(skin.key)
@@ -137,9 +139,13 @@ def _compute(
     kept: set[str],
     reading: SceneReading,
     faults: dict[str, str],
+    fixed: bool,
 ) -> None:
-    """Computes the tables whose signature changed; a skin with a fault keeps its last one."""
-    room = atlas.layout if STATE.rendering else None
+    """Computes the tables whose signature changed; a skin with a fault keeps its last one.
+
+    fixed  whether its light has to fit into the nodes that there are
+    """
+    room = atlas.layout if fixed else None
     for _obj, skin in members:
         if skin.key in kept:
             continue
