@@ -39,8 +39,8 @@ def make_skin(obj: bpy.types.Object, thickness: Sequence[float] | None = None, *
     """Makes a mesh object glow: thickness, lookup node behind its surface, live update.
 
     obj        a mesh object with faces, not in edit mode; its materials keep their surface
-    thickness  mm, one per vertex, for thicknesses of your own; without it they are measured by rays (only when the
-               mesh, its scale or unit changed since the last time)
+    thickness  mm, one per vertex, for thicknesses of your own, which then stay; without it they are measured by rays
+               (only when the mesh, its scale or unit changed since the last time)
     settings   any property of `obj.skinglow` (skin_settings.py): mode="existing"|"paper"|"physical",
                weights="object"|"surface"|"auto" (in mode physical: lamps weighed once or at each pixel), strength,
                blood_weight, attenuation, reference="bounds"|"origin"|"point", reference_point (which implies
