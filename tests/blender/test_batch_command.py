@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 import pytest
-from hosts import ADDON_FOLDER, HERE, HOSTS, hosts_here
+from hosts import ADDON_FOLDER, HERE, HOSTS
 
 SECONDS = 120
 #: Makes and saves a scene: two lamps, a skin, a camera.
@@ -160,7 +160,7 @@ def test_workers_share_a_folder(program: Program, tmp_path: Path) -> None:
     assert "8 kept" in program.run(["--rigs", "Key", "Fill", "--out", str(tmp_path)]).stderr
 
 
-@pytest.mark.parametrize("host", [h for h in hosts_here() if not h.is_program], ids=lambda host: host.name)
+@pytest.mark.parametrize("host", [h for h in list(HOSTS.values()) if not h.is_program], ids=lambda host: host.name)
 def test_process_of_a_wheel_ends_with_the_exit_code(host, tmp_path: Path) -> None:
     """In a bpy wheel there is no program: a script calls the command."""
     script = tmp_path / "batch_script.py"
