@@ -30,7 +30,7 @@ class Program:
     """The full Blender program with a scene of its own."""
 
     def __init__(self, folder: Path) -> None:
-        self.host = HOSTS["3.4"]
+        self.host = next(host for host in HOSTS if host.name == "3.4")
         assert self.host.path, f"Blender {self.host.name} is not there: {self.host.variable} does not say where it is"
         self.environment = self.host.environment(folder)
         self.blend = folder / "scene.blend"
@@ -160,7 +160,7 @@ def test_workers_share_a_folder(program: Program, tmp_path: Path) -> None:
     assert "8 kept" in program.run(["--rigs", "Key", "Fill", "--out", str(tmp_path)]).stderr
 
 
-@pytest.mark.parametrize("host", [h for h in list(HOSTS.values()) if not h.is_program], ids=lambda host: host.name)
+@pytest.mark.parametrize("host", [h for h in HOSTS if not h.is_program], ids=lambda host: host.name)
 def test_process_of_a_wheel_ends_with_the_exit_code(host, tmp_path: Path) -> None:
     """In a bpy wheel there is no program: a script calls the command."""
     script = tmp_path / "batch_script.py"
