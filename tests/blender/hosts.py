@@ -50,6 +50,11 @@ HOSTS = (
 )
 
 
+def host_named(name: str) -> Host:
+    """The host of that version."""
+    return next(host for host in HOSTS if host.name == name)
+
+
 @dataclass
 class Run:
     """What became of one module in one host."""

@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 import pytest
-from hosts import ADDON_FOLDER, HERE, HOSTS
+from hosts import ADDON_FOLDER, HERE, HOSTS, host_named
 
 SECONDS = 120
 #: Makes and saves a scene: two lamps, a skin, a camera.
@@ -30,7 +30,7 @@ class Program:
     """The full Blender program with a scene of its own."""
 
     def __init__(self, folder: Path) -> None:
-        self.host = next(host for host in HOSTS if host.name == "3.4")
+        self.host = host_named("3.4")
         assert self.host.path, f"Blender {self.host.name} is not there: {self.host.variable} does not say where it is"
         self.environment = self.host.environment(folder)
         self.blend = folder / "scene.blend"

@@ -4,7 +4,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from hosts import HERE, HOSTS
+from hosts import HERE, host_named
 
 SECONDS = 120
 
@@ -12,7 +12,7 @@ SECONDS = 120
 @pytest.mark.parametrize("order", ["cycles first", "core first"])
 @pytest.mark.parametrize("name", ["3.4"])  # the wheels' scripts end with os._exit: that of 4.5 hangs otherwise
 def test_process_ends_well_after_tracing(name: str, order: str, tmp_path: Path) -> None:
-    host = HOSTS[name]
+    host = host_named(name)
     assert host.path, f"Blender {name} is not there: {host.variable} does not say where it is"
     command = [host.path, "-b", "--factory-startup", "--python-exit-code", "5", "-P", str(HERE / "traces_and_ends.py")]
     done = subprocess.run(

@@ -9,7 +9,7 @@ from pathlib import Path
 import matplotlib.image
 import numpy as np
 import pytest
-from hosts import ADDON_FOLDER, HERE, HOSTS
+from hosts import ADDON_FOLDER, HERE, host_named
 
 PICTURES = HERE.parents[1] / "scripts" / "panel_pictures"
 #: Seconds for the whole run; software OpenGL on a busy machine is slow.
@@ -32,7 +32,7 @@ class Window:
 
 @pytest.fixture(scope="module")
 def window(tmp_path_factory: pytest.TempPathFactory) -> Window:
-    host = HOSTS["3.4"]
+    host = host_named("3.4")
     assert host.path, f"Blender 3.4 is not there: {host.variable} does not say where it is"
     assert shutil.which("xvfb-run"), "xvfb-run is not there: install xvfb and xauth (scripts/setup --tests does)"
     folder = tmp_path_factory.mktemp("window")
