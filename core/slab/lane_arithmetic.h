@@ -62,14 +62,15 @@ struct Factors {
     double* antisymmetric;
     double* through;
 };
-SKINGLOW_INLINE void fill_factors(std::size_t n, const double* decay, const double* thickness,
-                                  Factors factors) {
+SKINGLOW_INLINE void fill_factors(std::size_t n, const double* decay, double attenuation,
+                                  const double* thickness, Factors factors) {
     constexpr double deepest = 700;  // exp(-700) is near the smallest number there is
     // Light beyond the critical angle meets no load at either face: only the layer's own k tanh(k d / 2)
     // keeps its pivots above rounding. So a layer is never thinner than 1e-11 of its fastest mode's length,
-    // which changes T by as much.
-    double fastest = decay[0];
-    for (std::size_t i = 1; i < n; ++i) fastest = decay[i] > fastest ? decay[i] : fastest;
+    // which changes T by as much. Where the fast modes are left out, the slowest alone, without absorption
+    // near 0, must not set that length: the attenuation does.
+    double fastest = attenuation;
+    for (std::size_t i = 0; i < n; ++i) fastest = decay[i] > fastest ? decay[i] : fastest;
     const double thinnest = fastest > 1e-250 ? 1e-11 / fastest : 1e-200;
     for (std::size_t i = 0; i < n; ++i) {
         const double k = decay[i];

@@ -107,8 +107,9 @@ static void solve_thin(std::size_t n, const double* above, const double* below, 
 }
 
 SKINGLOW_FOR_EACH_PROCESSOR
-static void all_factors(std::size_t n, const double* decay, const double* thickness, Factors factors) {
-    fill_factors(n, decay, thickness, factors);
+static void all_factors(std::size_t n, const double* decay, double attenuation, const double* thickness,
+                        Factors factors) {
+    fill_factors(n, decay, attenuation, thickness, factors);
 }
 
 void solve_lanes(const ModeProblem& problem, double attenuation, const double* thickness,
@@ -120,7 +121,7 @@ void solve_lanes(const ModeProblem& problem, double attenuation, const double* t
     if (scratch.size() < needed) scratch.resize(needed);
     const Factors factors{scratch.data(), scratch.data() + n * lanes, scratch.data() + 2 * n * lanes};
     double* rest = scratch.data() + 3 * n * lanes;
-    all_factors(n, problem.decay.data(), thickness, factors);
+    all_factors(n, problem.decay.data(), attenuation, thickness, factors);
     if (equal) {
         solve_equal(n, problem.load_above.data(), problem.source.data(), problem.receiver.data(), factors,
                     transmittance, rest);
