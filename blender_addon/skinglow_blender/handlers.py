@@ -142,6 +142,7 @@ def look_again() -> None:
 def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
     """A file was loaded. What is evaluated while it loads is not reported, so it is looked at here."""
     forget_all()
+    follow_windows()  # loading takes subscriptions away
     if bpy.context.view_layer is not None and any(obj.skinglow.enabled for obj in bpy.data.objects):
         update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
     remove_orphans()
@@ -172,6 +173,17 @@ def show_viewport() -> None:
             atlas.show(group)
 
 
+#: Whose subscriptions these are; any object of our own will do.
+WINDOWS = object()
+
+
+def follow_windows() -> None:
+    """Has a window's turn to another scene or view layer noticed: one evaluated before is shown without a report."""
+    bpy.msgbus.clear_by_owner(WINDOWS)
+    for name in ("scene", "view_layer"):
+        bpy.msgbus.subscribe_rna(key=(bpy.types.Window, name), owner=WINDOWS, args=(), notify=look_again_soon)
+
+
 HANDLERS = (
     ("depsgraph_update_post", on_depsgraph_update),
     ("frame_change_post", on_frame_change),
@@ -190,6 +202,7 @@ def register() -> None:
     """Asks Blender for its calls."""
     for event, handler in HANDLERS:
         getattr(bpy.app.handlers, event).append(handler)
+    follow_windows()
 
 
 def unregister() -> None:
@@ -198,6 +211,7 @@ def unregister() -> None:
         handlers = getattr(bpy.app.handlers, event)
         if handler in handlers:
             handlers.remove(handler)
+    bpy.msgbus.clear_by_owner(WINDOWS)
     if bpy.app.timers.is_registered(look_again):
         bpy.app.timers.unregister(look_again)
     STATE.forget()

@@ -69,7 +69,7 @@ def test_the_button_makes_a_skin_and_undo_takes_it_back(window: Window) -> None:
 def test_the_list_is_sorted_and_says_why(window: Window) -> None:
     rows = window["rows"]
     shares = [share for _name, share, _reason in rows]
-    assert len(rows) == 6 and shares == sorted(shares, reverse=True) and abs(sum(shares) - 1.0) < 0.01
+    assert len(rows) == 7 and shares == sorted(shares, reverse=True) and abs(sum(shares) - 1.0) < 0.01
     reasons = {name: reason for name, _share, reason in rows if reason}
     assert reasons["Put away"] == "disabled in viewports" and "zero power" in reasons["Switched off"]
 

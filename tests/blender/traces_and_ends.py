@@ -25,7 +25,8 @@ state = sb.make_skin(obj, mode="physical", unit_mm=1.0)
 assert abs(state.thickness_mm[0] - 2.0) < 0.6, state
 scene.skinglow.occlusion = True
 bpy.ops.mesh.primitive_plane_add(size=9.0, location=(0.0, 0.0, 3.0))
-(row,) = sb.light_report(obj, bpy.context.evaluated_depsgraph_get())
+report = sb.light_report(obj, bpy.context.evaluated_depsgraph_get())
+(row,) = (row for row in report if row["name"] == "Light")
 assert row["visible"] < 1.0, row
 bpy.ops.render.render(write_still=True)
 print("traced and rendered", flush=True)
