@@ -13,22 +13,13 @@ PYBIND11_MODULE(_core, m) {
     m.doc() =
         "Light weights, lookup tables, recolouring and skin optics. mm, W, nm, radians, linear Rec.709.";
     m.attr("__version__") = SKINGLOW_VERSION;
+    // A function's signature names the classes bound before it.
     bind_light(m);
     bind_core(m);
-#ifdef SKINGLOW_BIND_SLAB
-    bind_slab(m);
-#endif
-#ifdef SKINGLOW_BIND_TISSUE
-    bind_tissue(m);
-#endif
-#ifdef SKINGLOW_BIND_IRRADIANCE
     bind_irradiance(m);
-#endif
-#ifdef SKINGLOW_BIND_RIG
+    bind_slab(m);
+    bind_tissue(m);
     bind_rig(m);
-#endif
     bind_surface_lighting(m);
-#ifdef SKINGLOW_BIND_POVRAY
     bind_povray(m);
-#endif
 }
