@@ -21,21 +21,36 @@ void sun_block(const PreparedLight& light, const PlaceBlock& p, BlockIrradiance&
     const double* p_ny = p.ny.data();
     const double* p_nz = p.nz.data();
     double* value_out = r.value.data();
-    double* cosine_out = r.cosine.data();
     double* special_out = r.special.data();
     SKINGLOW_VECTOR_LOOP
     for (std::size_t i = 0; i < count; ++i) {
         const double cosine = -(p_nx[i] * d.x + p_ny[i] * d.y + p_nz[i] * d.z);
-        cosine_out[i] = cosine;
         value_out[i] = cosine > 0.0 ? cosine : 0.0;
         special_out[i] = std::abs(cosine) < sine ? 1.0 : 0.0;
     }
 }
 
-SKINGLOW_VECTOR_CLONES
-void ball_block(const PreparedLight& light, const PlaceBlock& p, BlockIrradiance& r) {
+/// The cone of a spot. For a point: one that lets everything through.
+struct Cone {
+    double cos_edge = -2.0;
+    double per_fade = 1.0;  ///< 1 / (cosine where the fade starts - cos_edge)
+    double uneven_from = 2.0;
+    double with_cosine = 0.0;
+};
+
+Cone cone_of(const SpotProfile& spot) {
+    const double fade = spot.cos_fade_start() - spot.cos_edge();
+    return {spot.cos_edge(), fade > 0.0 ? 1.0 / fade : 1e300,
+            spot.with_cosine() ? 2.0 : spot.cos_fade_start(), spot.with_cosine() ? 1.0 : 0.0};
+}
+
+/// A lit ball, or the point it shrinks to; with is_spot, times what its cone lets through.
+[[gnu::always_inline]] inline void ball_loop(const PreparedLight& light, const Cone& cone,
+                                             const PlaceBlock& p, BlockIrradiance& r, bool is_spot) {
     const glm::dvec3 l = light.position();
+    const glm::dvec3 d = is_spot ? light.direction() : glm::dvec3(0.0);
     const double radius_square = light.radius() * light.radius();
+    const double half_pi_radius = 0.5 * pi * light.radius();
     const double soft_square = light.soft_falloff() ? radius_square : 0.0;
     const double least_square = light.soft_falloff()         ? min_square
                                 : radius_square > min_square ? radius_square
@@ -48,7 +63,6 @@ void ball_block(const PreparedLight& light, const PlaceBlock& p, BlockIrradiance
     const double* p_ny = p.ny.data();
     const double* p_nz = p.nz.data();
     double* value_out = r.value.data();
-    double* cosine_out = r.cosine.data();
     double* special_out = r.special.data();
     SKINGLOW_VECTOR_LOOP
     for (std::size_t i = 0; i < count; ++i) {
@@ -58,63 +72,62 @@ void ball_block(const PreparedLight& light, const PlaceBlock& p, BlockIrradiance
         const double square = vx * vx + vy * vy + vz * vz;
         const double reach_square = square + soft_square;
         const double towards = vx * p_nx[i] + vy * p_ny[i] + vz * p_nz[i];
-        const double inverse = 1.0 / (std::sqrt(square) * reach_square);  // one division for both
-        const double cosine = towards * inverse * reach_square;
-        cosine_out[i] = cosine;
-        value_out[i] = (towards > 0.0 ? towards : 0.0) * (0.25 / pi) * inverse;
-        const bool on_horizon = cosine * cosine * reach_square < radius_square;
-        special_out[i] = on_horizon || square < least_square ? 1.0 : 0.0;
+        const double root = std::sqrt(square);
+        const double inverse = 1.0 / (root * reach_square);  // one division for all
+        const double value = (towards > 0.0 ? towards : 0.0) * (0.25 / pi) * inverse;
+        const bool on_horizon = towards * towards * reach_square < radius_square * square;
+        const double special = on_horizon || square < least_square ? 1.0 : 0.0;
+        if (!is_spot) {
+            value_out[i] = value;
+            special_out[i] = special;
+        } else {
+            const double inverse_root = inverse * reach_square;
+            const double cosine = -(vx * d.x + vy * d.y + vz * d.z) * inverse_root;
+            double t = (cosine - cone.cos_edge) * cone.per_fade;
+            t = t > 0.0 ? t : 0.0;
+            t = t < 1.0 ? t : 1.0;
+            // Within the lamp's angular radius (at most pi/2 times its sine, that at most r/d) the profile is
+            // not even.
+            const double margin = half_pi_radius * inverse_root;
+            const bool uneven =
+                margin > 2e-6 && cosine > cone.cos_edge - margin && cosine < cone.uneven_from + margin;
+            const bool dark = cosine <= cone.cos_edge - margin;
+            special_out[i] = uneven ? 1.0
+                             : dark ? (square < radius_square + min_square ? 1.0 : 0.0)
+                                    : special;
+            value_out[i] = value * t * t * (3.0 - 2.0 * t) * (1.0 + cone.with_cosine * (cosine - 1.0));
+        }
     }
 }
 
 SKINGLOW_VECTOR_CLONES
-void spot_factor_block(const PreparedLight& light, const SpotProfile& spot, const PlaceBlock& p,
-                       BlockIrradiance& r) {
-    const glm::dvec3 l = light.position();
-    const glm::dvec3 d = light.direction();
-    const double radius_square = light.radius() * light.radius();
-    const double half_pi_radius = 0.5 * pi * light.radius();
-    const double cos_edge = spot.cos_edge();
-    const double fade = spot.cos_fade_start() - cos_edge;
-    const double per_fade = fade > 0.0 ? 1.0 / fade : 1e300;
-    const double uneven_from = spot.with_cosine() ? 2.0 : spot.cos_fade_start();
-    const double with_cosine = spot.with_cosine() ? 1.0 : 0.0;
-    const std::size_t count = p.count;
-    const double* p_x = p.x.data();
-    const double* p_y = p.y.data();
-    const double* p_z = p.z.data();
-    double* value_out = r.value.data();
-    double* special_out = r.special.data();
-    SKINGLOW_VECTOR_LOOP
-    for (std::size_t i = 0; i < count; ++i) {
-        const double vx = p_x[i] - l.x;
-        const double vy = p_y[i] - l.y;
-        const double vz = p_z[i] - l.z;
-        const double square = vx * vx + vy * vy + vz * vz;
-        const double inverse = 1.0 / std::sqrt(square);
-        const double cosine = (vx * d.x + vy * d.y + vz * d.z) * inverse;
-        double t = (cosine - cos_edge) * per_fade;
-        t = t > 0.0 ? t : 0.0;
-        t = t < 1.0 ? t : 1.0;
-        const double share = t * t * (3.0 - 2.0 * t) * (1.0 + with_cosine * (cosine - 1.0));
-        // Within the lamp's angular radius (at most pi/2 times its sine, that at most r/d) the profile is not
-        // even.
-        const double margin = half_pi_radius * inverse;
-        const bool uneven = margin > 2e-6 && cosine > cos_edge - margin && cosine < uneven_from + margin;
-        const bool dark = cosine <= cos_edge - margin;
-        special_out[i] = uneven ? 1.0
-                         : dark ? (square < radius_square + min_square ? 1.0 : 0.0)
-                                : special_out[i];
-        value_out[i] *= share;
-    }
+void point_block(const PreparedLight& light, const PlaceBlock& p, BlockIrradiance& r) {
+    ball_loop(light, {}, p, r, false);
 }
 
-void other_block(const PreparedLight& light, const PlaceBlock& p, BlockIrradiance& r) {
-    for (std::size_t i = 0; i < p.count; ++i) {
-        const glm::dvec3 towards = light.to_light({p.x[i], p.y[i], p.z[i]});
-        r.cosine[i] = towards.x * p.nx[i] + towards.y * p.ny[i] + towards.z * p.nz[i];
-        r.value[i] = 0.0;
-        r.special[i] = 1.0;
+SKINGLOW_VECTOR_CLONES
+void spot_block(const PreparedLight& light, const Cone& cone, const PlaceBlock& p, BlockIrradiance& r) {
+    ball_loop(light, cone, p, r, true);
+}
+
+SKINGLOW_VECTOR_CLONES
+void cosine_to_sun(const PreparedLight& light, const PlaceBlock& p, double* cosine) {
+    const glm::dvec3 d = light.direction();
+    const std::size_t count = p.count;
+    SKINGLOW_VECTOR_LOOP
+    for (std::size_t i = 0; i < count; ++i) cosine[i] = -(p.nx[i] * d.x + p.ny[i] * d.y + p.nz[i] * d.z);
+}
+
+SKINGLOW_VECTOR_CLONES
+void cosine_to_lamp(const PreparedLight& light, const PlaceBlock& p, double* cosine) {
+    const glm::dvec3 l = light.position();
+    const std::size_t count = p.count;
+    SKINGLOW_VECTOR_LOOP
+    for (std::size_t i = 0; i < count; ++i) {
+        const double vx = l.x - p.x[i];
+        const double vy = l.y - p.y[i];
+        const double vz = l.z - p.z[i];
+        cosine[i] = (vx * p.nx[i] + vy * p.ny[i] + vz * p.nz[i]) / std::sqrt(vx * vx + vy * vy + vz * vz);
     }
 }
 
@@ -138,6 +151,14 @@ std::int64_t count_special(const BlockIrradiance& one, std::size_t count) {
     const double* special = one.special.data();
     std::int64_t found = 0;
     for (std::size_t i = 0; i < count; ++i) found += special[i] > 0.0 ? 1 : 0;
+    return found;
+}
+
+SKINGLOW_VECTOR_CLONES
+std::int64_t count_beyond(const BlockValues& values, std::size_t count, double most) {
+    const double* value = values.data();
+    std::int64_t found = 0;
+    for (std::size_t i = 0; i < count; ++i) found += std::abs(value[i]) <= most ? 0 : 1;
     return found;
 }
 
@@ -175,6 +196,10 @@ void normalise(PlaceBlock& places) {
     }
 }
 
+bool all_within(const BlockValues& values, std::size_t count, double most) {
+    return count_beyond(values, count, most) == 0;
+}
+
 bool any_special(const BlockIrradiance& one, std::size_t count) {
     return count_special(one, count) > 0;
 }
@@ -184,14 +209,27 @@ void add_block(const BlockIrradiance& one, const glm::dvec3& strength, std::size
 }
 
 void block_irradiance(const PreparedLight& light, const PlaceBlock& places, BlockIrradiance& result) {
-    if (light.kind() == LightKind::sun) return sun_block(light, places, result);
-    if (light.kind() == LightKind::area) {
-        const AreaEmitter& area = *light.area();
-        if (area.shape() != AreaShape::rectangle || area.spreads()) return other_block(light, places, result);
+    switch (light.kind()) {
+        case LightKind::sun:
+            return sun_block(light, places, result);
+        case LightKind::point:
+            return point_block(light, places, result);
+        case LightKind::spot:
+            return spot_block(light, cone_of(*light.spot()), places, result);
+        case LightKind::area:
+            break;
+    }
+    const AreaEmitter& area = *light.area();
+    if (area.shape() == AreaShape::rectangle && !area.spreads()) {
         return rectangle_block(light, area, places, result);
     }
-    ball_block(light, places, result);
-    if (light.kind() == LightKind::spot) spot_factor_block(light, *light.spot(), places, result);
+    result.value.fill(0.0);
+    result.special.fill(1.0);
+}
+
+void block_cosine(const PreparedLight& light, const PlaceBlock& places, BlockValues& cosine) {
+    if (light.kind() == LightKind::sun) return cosine_to_sun(light, places, cosine.data());
+    cosine_to_lamp(light, places, cosine.data());
 }
 
 }  // namespace skinglow

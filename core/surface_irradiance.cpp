@@ -43,15 +43,32 @@ std::vector<Lamp> prepare(std::span<const Light> lights) {
     return lamps;
 }
 
+/// Without leaving early: so the loop is vectorised.
+bool all_finite(std::span<const glm::dvec3> values) {
+    constexpr double most = std::numeric_limits<double>::max();
+    int bad = 0;
+    for (const glm::dvec3& v : values) {
+        bad |= static_cast<int>(!(std::abs(v.x) <= most)) | static_cast<int>(!(std::abs(v.y) <= most)) |
+               static_cast<int>(!(std::abs(v.z) <= most));
+    }
+    return bad == 0;
+}
+
 /// One thread's work on one block after another.
 class BlockWorker {
   public:
     BlockWorker(std::span<const Lamp> lamps, const SurfaceOptions& options)
         : lamps_(lamps), options_(options) {}
 
-    void work(std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals,
+    /// Fills sums; false, and then not all of them, where what is given or comes out is not finite.
+    bool work(std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals,
               std::span<glm::dvec3> sums) {
         load(points, normals);
+        if (!(near_ || are_finite(places_.x, places_.y, places_.z)) ||
+            !are_finite(places_.nx, places_.ny, places_.nz)) {
+            return false;
+        }
+        normalise(places_);
         sum_ = {};
         for (const Lamp& lamp : lamps_) add(lamp);
         for (std::size_t i = 0; i < places_.count; ++i) {
@@ -59,6 +76,7 @@ class BlockWorker {
             if (options_.environment == nullptr || normal(i) == glm::dvec3(0.0)) continue;
             sums[i] += options_.environment->irradiance(normal(i), options_.angular_weight);
         }
+        return all_finite(sums);
     }
 
   private:
@@ -67,7 +85,6 @@ class BlockWorker {
 
     void load(std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals) {
         places_.count = points.size();
-        double reach = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
             places_.x[i] = points[i].x;
             places_.y[i] = points[i].y;
@@ -75,10 +92,17 @@ class BlockWorker {
             places_.nx[i] = normals[i].x;
             places_.ny[i] = normals[i].y;
             places_.nz[i] = normals[i].z;
-            reach = std::max(reach, reach_of(points[i]));
         }
-        near_ = reach < widest_vectorised;
-        normalise(places_);
+        near_ = are_within(places_.x, places_.y, places_.z, widest_vectorised);
+    }
+
+    bool are_within(const BlockValues& x, const BlockValues& y, const BlockValues& z, double most) const {
+        const std::size_t count = places_.count;
+        return all_within(x, count, most) && all_within(y, count, most) && all_within(z, count, most);
+    }
+
+    bool are_finite(const BlockValues& x, const BlockValues& y, const BlockValues& z) const {
+        return are_within(x, y, z, std::numeric_limits<double>::max());
     }
 
     void add(const Lamp& lamp) {
@@ -98,15 +122,16 @@ class BlockWorker {
             const glm::dvec3 n = normal(i);
             one_.value[i] =
                 n == glm::dvec3(0.0) ? 0.0 : lamp.light.irradiance(place(i), n, options_.area_tolerance);
-            one_.cosine[i] = glm::dot(lamp.light.to_light(place(i)), n);
         }
     }
 
     void add_weighted(const Lamp& lamp) {
+        block_cosine(lamp.light, places_, cosine_);
         for (std::size_t i = 0; i < places_.count; ++i) {
             if (one_.value[i] == 0.0) continue;
-            const glm::dvec3 term =
-                lamp.strength * one_.value[i] * options_.angular_weight->at(one_.cosine[i]);
+            const double cosine =
+                one_.special[i] == 0.0 ? cosine_[i] : glm::dot(lamp.light.to_light(place(i)), normal(i));
+            const glm::dvec3 term = lamp.strength * one_.value[i] * options_.angular_weight->at(cosine);
             sum_.red[i] += term.r;
             sum_.green[i] += term.g;
             sum_.blue[i] += term.b;
@@ -118,6 +143,7 @@ class BlockWorker {
     bool near_ = true;
     PlaceBlock places_{};
     BlockIrradiance one_{};
+    BlockValues cosine_{};
     BlockSum sum_{};
 };
 
@@ -129,24 +155,16 @@ std::size_t thread_count(int wanted, std::size_t blocks, std::size_t lamps) {
     return std::min({allowed, worth, std::max<std::size_t>(1, blocks)});
 }
 
-/// Without leaving early: so the loop is vectorised.
-bool all_finite(std::span<const glm::dvec3> values) {
-    constexpr double most = std::numeric_limits<double>::max();
-    int bad = 0;
-    for (const glm::dvec3& v : values) {
-        bad |= static_cast<int>(!(std::abs(v.x) <= most)) | static_cast<int>(!(std::abs(v.y) <= most)) |
-               static_cast<int>(!(std::abs(v.z) <= most));
-    }
-    return bad == 0;
+void require_a_normal_each(std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals) {
+    if (points.size() == normals.size()) return;
+    refuse_argument("number of normals", std::to_string(normals.size()),
+                    "as many as points (" + std::to_string(points.size()) + ")");
 }
 
 }  // namespace
 
 void require_places(std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals) {
-    if (points.size() != normals.size()) {
-        refuse_argument("number of normals", std::to_string(normals.size()),
-                        "as many as points (" + std::to_string(points.size()) + ")");
-    }
+    require_a_normal_each(points, normals);
     const auto validate_all = [](const char* name, std::span<const glm::dvec3> values) {
         if (all_finite(values)) return;
         for (std::size_t i = 0; i < values.size(); ++i) {
@@ -163,19 +181,22 @@ void require_places(std::span<const glm::dvec3> points, std::span<const glm::dve
 std::vector<glm::dvec3> surface_irradiance(std::span<const Light> lights, std::span<const glm::dvec3> points,
                                            std::span<const glm::dvec3> normals,
                                            const SurfaceOptions& options) {
-    require_places(points, normals);
+    require_a_normal_each(points, normals);
     require_positive("area_tolerance", options.area_tolerance);
     const std::vector<Lamp> lamps = prepare(lights);
     std::vector<glm::dvec3> sums(points.size());
-    const std::size_t blocks = (points.size() + PlaceBlock::capacity - 1) / PlaceBlock::capacity;
+    const std::size_t blocks = (points.size() + block_capacity - 1) / block_capacity;
     std::atomic<std::size_t> next = 0;
+    std::atomic<bool> all_well = true;
     const auto take_blocks = [&] {
         const auto worker = std::make_unique<BlockWorker>(lamps, options);
         for (std::size_t block = next++; block < blocks; block = next++) {
-            const std::size_t begin = block * PlaceBlock::capacity;
-            const std::size_t count = std::min(PlaceBlock::capacity, points.size() - begin);
-            worker->work(points.subspan(begin, count), normals.subspan(begin, count),
-                         std::span(sums).subspan(begin, count));
+            const std::size_t begin = block * block_capacity;
+            const std::size_t count = std::min(block_capacity, points.size() - begin);
+            if (!worker->work(points.subspan(begin, count), normals.subspan(begin, count),
+                              std::span(sums).subspan(begin, count))) {
+                all_well = false;
+            }
         }
     };
     std::vector<std::thread> helpers;
@@ -183,7 +204,8 @@ std::vector<glm::dvec3> surface_irradiance(std::span<const Light> lights, std::s
         helpers.emplace_back(take_blocks);
     take_blocks();
     for (std::thread& helper : helpers) helper.join();
-    if (all_finite(sums)) return sums;
+    if (all_well) return sums;
+    require_places(points, normals);
     for (std::size_t i = 0; i < sums.size(); ++i) {
         require_finite("irradiance at points[" + std::to_string(i) + "]", sums[i]);
     }

@@ -7,7 +7,7 @@
 // module cannot be loaded.
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
 #if defined(__GNUC__) && __GNUC__ >= 12
-#define SKINGLOW_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
+#define SKINGLOW_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #endif
 #endif
 #ifndef SKINGLOW_VECTOR_CLONES
