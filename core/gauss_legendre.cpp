@@ -41,7 +41,10 @@ const QuadratureRule<Count>& gauss_legendre() {
     return rule;
 }
 
+template const QuadratureRule<1>& gauss_legendre<1>();
+template const QuadratureRule<2>& gauss_legendre<2>();
 template const QuadratureRule<4>& gauss_legendre<4>();
+template const QuadratureRule<6>& gauss_legendre<6>();
 template const QuadratureRule<8>& gauss_legendre<8>();
 template const QuadratureRule<16>& gauss_legendre<16>();
 template const QuadratureRule<24>& gauss_legendre<24>();

@@ -6,9 +6,11 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
+#include "area_angular_weight.h"
 #include "argument_check.h"
 #include "lamp_kernels.h"
 #include "prepared_light.h"
@@ -23,13 +25,14 @@ struct Lamp {
     PreparedLight light;
     glm::dvec3 strength;  ///< power * colour
     bool vectorised;
+    std::optional<AreaAngularWeight> area_weight;  ///< of an area lamp, where angles count
 };
 
 double reach_of(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-std::vector<Lamp> prepare(std::span<const Light> lights) {
+std::vector<Lamp> prepare(std::span<const Light> lights, const AngularWeight* angular_weight) {
     std::vector<Lamp> lamps;
     for (const Light& light : lights) {
         validate(light);
@@ -38,7 +41,10 @@ std::vector<Lamp> prepare(std::span<const Light> lights) {
         const double reach = std::max({reach_of(light.position), light.radius, light.size_x, light.size_y});
         const bool tiny = light.kind == LightKind::area && std::max(light.size_x, light.size_y) < 1e-9;
         const glm::dvec3 strength = light.color * light.power;
-        lamps.push_back({prepared, strength, reach < widest_vectorised && !tiny});
+        lamps.push_back({prepared, strength, reach < widest_vectorised && !tiny, {}});
+        if (angular_weight != nullptr && prepared.area()) {
+            lamps.back().area_weight.emplace(prepared, *angular_weight);
+        }
     }
     return lamps;
 }
@@ -126,16 +132,22 @@ class BlockWorker {
     }
 
     void add_weighted(const Lamp& lamp) {
-        block_cosine(lamp.light, places_, cosine_);
+        if (!lamp.area_weight) block_cosine(lamp.light, places_, cosine_);
         for (std::size_t i = 0; i < places_.count; ++i) {
             if (one_.value[i] == 0.0) continue;
-            const double cosine =
-                one_.special[i] == 0.0 ? cosine_[i] : glm::dot(lamp.light.to_light(place(i)), normal(i));
-            const glm::dvec3 term = lamp.strength * one_.value[i] * options_.angular_weight->at(cosine);
+            const glm::dvec3 term = lamp.strength * one_.value[i] * entering(lamp, i);
             sum_.red[i] += term.r;
             sum_.green[i] += term.g;
             sum_.blue[i] += term.b;
         }
+    }
+
+    /// What a lamp's light counts by its angle at a place.
+    glm::dvec3 entering(const Lamp& lamp, std::size_t i) const {
+        if (lamp.area_weight) return lamp.area_weight->mean(place(i), normal(i));
+        const bool is_special = one_.special[i] != 0.0;
+        return options_.angular_weight->at(is_special ? glm::dot(lamp.light.to_light(place(i)), normal(i))
+                                                      : cosine_[i]);
     }
 
     std::span<const Lamp> lamps_;
@@ -183,7 +195,7 @@ std::vector<glm::dvec3> surface_irradiance(std::span<const Light> lights, std::s
                                            const SurfaceOptions& options) {
     require_a_normal_each(points, normals);
     require_positive("area_tolerance", options.area_tolerance);
-    const std::vector<Lamp> lamps = prepare(lights);
+    const std::vector<Lamp> lamps = prepare(lights, options.angular_weight);
     std::vector<glm::dvec3> sums(points.size());
     const std::size_t blocks = (points.size() + block_capacity - 1) / block_capacity;
     std::atomic<std::size_t> next = 0;

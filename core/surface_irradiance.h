@@ -15,9 +15,11 @@ namespace skinglow {
 struct SurfaceOptions {
     double area_tolerance =
         default_area_tolerance;  ///< relative, of the integrals for elliptic lamps and spreads
-    const AngularWeight* angular_weight = nullptr;  ///< none: every angle enters alike (Lambert)
-    const Environment* environment = nullptr;       ///< none: black
-    int threads = 0;                                ///< 0: one for each processor
+    /// None: every angle enters alike (Lambert). Area lamps count by the angles of their parts, other lamps
+    /// by that of their middle.
+    const AngularWeight* angular_weight = nullptr;
+    const Environment* environment = nullptr;  ///< none: black
+    int threads = 0;                           ///< 0: one for each processor
 };
 
 /// Surface weights: irradiance at many places, each facing along its own normal, with its cosine and its

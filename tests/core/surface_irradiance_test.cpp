@@ -91,6 +91,44 @@ TEST(SurfaceIrradiance, NothingInNothingOutAndBadInputIsNamed) {
     }
 }
 
+TEST(AngularWeight, LightOfAWideLampCountsByTheAnglesOfItsParts) {
+    // Steep enough to tell the middle of the lamp from its rim.
+    const AngularWeight weight(std::vector<double>{0.0, 1.0}, std::vector<double>{0.0, 1.0});
+    std::vector<glm::dvec3> points;
+    std::vector<glm::dvec3> normals;
+    for (int i = 0; i < 12; ++i) {
+        points.emplace_back(0.05 * i, 0.0, 0.01 * i);
+        normals.push_back(glm::normalize(glm::dvec3(std::sin(0.4 * i), 0.3, 1.0)));
+    }
+    const SurfaceOptions options{.angular_weight = &weight};
+    for (const double height : {0.4, 1.5, 12.0}) {
+        Light whole;
+        whole.kind = LightKind::area;
+        whole.position = {0, 0, height};
+        whole.direction = {0, 0, -1};
+        whole.tangent = {1, 0, 0};
+        whole.size_x = 0.8;
+        whole.size_y = 0.6;
+        constexpr int across = 30;
+        std::vector<Light> parts(across * across, whole);
+        for (int i = 0; i < across * across; ++i) {
+            Light& part = parts[static_cast<std::size_t>(i)];
+            part.size_x /= across;
+            part.size_y /= across;
+            part.power /= across * across;
+            part.position.x += whole.size_x * ((i % across + 0.5) / across - 0.5);
+            part.position.y += whole.size_y * ((i / across + 0.5) / across - 0.5);
+        }
+        const auto at_once = surface_irradiance({&whole, 1}, points, normals, options);
+        const auto in_parts = surface_irradiance(parts, points, normals, options);
+        double largest = 0;
+        for (const glm::dvec3& e : in_parts) largest = std::max(largest, e.r);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            EXPECT_NEAR(at_once[i].r, in_parts[i].r, 5e-3 * largest) << "height " << height << " place " << i;
+        }
+    }
+}
+
 TEST(AngularWeight, KeepsDiffuseLightAndTurnsTheRest) {
     const std::vector<double> mu = {0.0, 0.25, 1.0};
     const std::vector<double> transmittance = {0.1, 0.4, 0.5};
