@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "argument_check.h"
-#include "base_lut.h"
-#include "fixed_lookup.h"
-#include "light_weights.h"
+#include "light/light_weights.h"
+#include "numerics/argument_check.h"
 #include "numpy_conversion.h"
-#include "recolour.h"
+#include "skin/base_lut.h"
+#include "skin/fixed_lookup.h"
+#include "skin/recolour.h"
 
 namespace py = pybind11;
 using namespace py::literals;

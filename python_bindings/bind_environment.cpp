@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "argument_check.h"
-#include "environment.h"
+#include "light/environment.h"
+#include "light/prepared_light.h"
+#include "numerics/argument_check.h"
 #include "numpy_conversion.h"
-#include "prepared_light.h"
 
 namespace py = pybind11;
 using namespace py::literals;

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "argument_check.h"
-#include "slab_solver.h"
+#include "numerics/argument_check.h"
+#include "slab/slab_solver.h"
 
 namespace skinglow {
 

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "argument_check.h"
-#include "environment.h"
-#include "irradiance.h"
-#include "light_units.h"
+#include "light/environment.h"
+#include "light/irradiance.h"
+#include "light/light_units.h"
+#include "light/prepared_light.h"
+#include "light/surface_irradiance.h"
+#include "numerics/argument_check.h"
 #include "numpy_conversion.h"
-#include "prepared_light.h"
-#include "surface_irradiance.h"
 
 namespace py = pybind11;
 using namespace py::literals;

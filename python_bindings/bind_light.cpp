@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "argument_check.h"
-#include "light.h"
+#include "light/light.h"
+#include "numerics/argument_check.h"
 #include "numpy_conversion.h"
 
 namespace py = pybind11;

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "light_bounds.h"
-#include "light_culling.h"
-#include "light_report.h"
+#include "light/light_bounds.h"
+#include "light/light_culling.h"
+#include "light/light_report.h"
 #include "numpy_conversion.h"
 
 namespace py = pybind11;

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "argument_check.h"
 #include "bind_rays.h"
+#include "numerics/argument_check.h"
 #include "numpy_conversion.h"
+#include "rays/visibility.h"
 #include "triangle_arrays.h"
-#include "visibility.h"
 
 namespace py = pybind11;
 using namespace py::literals;

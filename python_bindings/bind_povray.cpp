@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "argument_check.h"
 #include "io/povray_include.h"
+#include "numerics/argument_check.h"
 #include "numpy_conversion.h"
 
 namespace py = pybind11;

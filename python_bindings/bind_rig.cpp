@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "argument_check.h"
 #include "io/file_error.h"
 #include "io/light_rig.h"
 #include "io/studio_light.h"
+#include "numerics/argument_check.h"
 #include "numpy_conversion.h"
 
 namespace py = pybind11;

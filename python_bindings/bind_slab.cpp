@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "argument_check.h"
 #include "bind_incidence.h"
+#include "numerics/argument_check.h"
 #include "numpy_conversion.h"
-#include "slab_solver.h"
-#include "thickness_curve.h"
+#include "slab/slab_solver.h"
+#include "slab/thickness_curve.h"
 
 namespace py = pybind11;
 using namespace py::literals;

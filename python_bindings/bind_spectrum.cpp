@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "argument_check.h"
+#include "colour/spectrum.h"
+#include "numerics/argument_check.h"
 #include "numpy_conversion.h"
-#include "spectrum.h"
 
 namespace py = pybind11;
 using namespace py::literals;

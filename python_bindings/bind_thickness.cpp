@@ -5,7 +5,7 @@
 
 #include "bind_rays.h"
 #include "numpy_conversion.h"
-#include "thickness.h"
+#include "rays/thickness.h"
 #include "triangle_arrays.h"
 
 namespace py = pybind11;

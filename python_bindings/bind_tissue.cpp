@@ -4,15 +4,15 @@
 #include <string>
 #include <utility>
 
-#include "argument_check.h"
 #include "bind_incidence.h"
-#include "diffusion_approximation.h"
+#include "colour/spectrum.h"
+#include "numerics/argument_check.h"
 #include "numpy_conversion.h"
-#include "skin_angular_weight.h"
-#include "skin_lut.h"
-#include "skin_transmittance.h"
-#include "spectrum.h"
-#include "tissue.h"
+#include "skin/diffusion_approximation.h"
+#include "skin/skin_angular_weight.h"
+#include "skin/skin_lut.h"
+#include "skin/skin_transmittance.h"
+#include "skin/tissue.h"
 
 namespace py = pybind11;
 using namespace py::literals;

@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "argument_check.h"
+#include "numerics/argument_check.h"
 
 namespace py = pybind11;
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "argument_check.h"
+#include "numerics/argument_check.h"
 #include "numpy_conversion.h"
 
 namespace py = pybind11;

@@ -1,10 +1,10 @@
 #include <iostream>
 #include <memory>
 
-#include "argument_check.h"
 #include "cli/commands.h"
 #include "cli/output_text.h"
 #include "io/image_compare.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow::cli {
 namespace {

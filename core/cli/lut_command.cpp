@@ -2,17 +2,17 @@
 #include <memory>
 #include <stdexcept>
 
-#include "argument_check.h"
 #include "cli/commands.h"
 #include "cli/output_text.h"
 #include "cli/rig_options.h"
 #include "cli/skin_options.h"
 #include "cli/table_options.h"
-#include "fixed_lookup.h"
 #include "io/lut_file.h"
 #include "io/lut_preview.h"
-#include "irradiance.h"
-#include "recolour.h"
+#include "light/irradiance.h"
+#include "numerics/argument_check.h"
+#include "skin/fixed_lookup.h"
+#include "skin/recolour.h"
 
 namespace skinglow::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/mesh_file.h"
-#include "thickness.h"
+#include "rays/thickness.h"
 
 namespace skinglow::cli {
 

@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "argument_check.h"
 #include "cli/commands.h"
 #include "cli/mesh_options.h"
 #include "cli/output_text.h"
@@ -18,6 +17,7 @@
 #include "io/atomic_file.h"
 #include "io/file_error.h"
 #include "io/povray_include.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "argument_check.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "skin_lut.h"
+#include "skin/skin_lut.h"
 
 namespace skinglow::cli {
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "cli/output_text.h"
-#include "fixed_lookup.h"
+#include "skin/fixed_lookup.h"
 
 namespace skinglow::cli {
 

@@ -2,11 +2,11 @@
 #include <memory>
 #include <optional>
 
-#include "argument_check.h"
 #include "cli/commands.h"
 #include "cli/output_text.h"
 #include "cli/rig_options.h"
-#include "fixed_lookup.h"
+#include "colour/luminance.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow::cli {
 namespace {

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <numbers>
 
-#include "argument_check.h"
 #include "io/file_error.h"
 #include "io/image_compare.h"
 #include "io/image_output.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "argument_check.h"
 #include "io/file_error.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "light.h"
+#include "light/light.h"
 
 /// The fields of a Light as a rig file has them: one row each, which reading and writing share. Not for use
 /// outside.

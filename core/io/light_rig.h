@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "light.h"
-#include "light_weights.h"
-#include "recolour.h"
+#include "light/light.h"
+#include "light/light_weights.h"
+#include "skin/recolour.h"
 
 namespace skinglow {
 

@@ -2,10 +2,10 @@
 #include <string>
 #include <vector>
 
-#include "argument_check.h"
 #include "io/light_fields.h"
 #include "io/light_rig.h"
 #include "io/located_json.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow {
 namespace {

@@ -1,9 +1,9 @@
 #include <nlohmann/json.hpp>
 
-#include "argument_check.h"
 #include "io/atomic_file.h"
 #include "io/light_fields.h"
 #include "io/light_rig.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow {
 namespace {

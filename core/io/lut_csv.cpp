@@ -3,11 +3,11 @@
 #include <cmath>
 #include <string>
 
-#include "argument_check.h"
 #include "io/atomic_file.h"
 #include "io/file_error.h"
 #include "io/lut_format.h"
 #include "io/parse_number.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "argument_check.h"
-#include "fixed_lookup.h"
+#include "colour/luminance.h"
 #include "io/file_error.h"
 #include "io/image_file.h"
 #include "io/lut_format.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow {
 namespace {

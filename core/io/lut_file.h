@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "base_lut.h"
 #include "io/transfer_function.h"
-#include "light_weights.h"
+#include "light/light_weights.h"
+#include "skin/base_lut.h"
 
 /// Lookup tables as files. A table is an image one texel high; entry i is texel i (LutAxis). What the pixels
 /// do not say (the thickness axis in mm, how the table was made) is text in the header, keys "skinglow:...":

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <cstdint>
 
-#include "argument_check.h"
 #include "io/file_error.h"
 #include "io/image_output.h"
 #include "io/lut_format.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow {
 namespace {

@@ -1,9 +1,9 @@
 #include <array>
 
-#include "argument_check.h"
 #include "io/file_error.h"
 #include "io/lut_format.h"
 #include "io/parse_number.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow {
 namespace {

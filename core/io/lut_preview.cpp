@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "argument_check.h"
 #include "io/file_error.h"
 #include "io/image_output.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow {
 namespace {

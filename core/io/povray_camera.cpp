@@ -3,9 +3,9 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "argument_check.h"
 #include "io/povray_parts.h"
 #include "io/sdl_text.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow {
 namespace {

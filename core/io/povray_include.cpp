@@ -4,9 +4,9 @@
 #include <iterator>
 #include <utility>
 
-#include "argument_check.h"
 #include "io/povray_parts.h"
 #include "io/sdl_text.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow {
 namespace {

@@ -6,9 +6,9 @@
 #include <span>
 #include <unordered_map>
 
-#include "argument_check.h"
 #include "io/povray_parts.h"
 #include "io/sdl_text.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow {
 namespace {

@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "base_lut.h"
-#include "light.h"
-#include "light_weights.h"
-#include "recolour.h"
+#include "light/light.h"
+#include "light/light_weights.h"
+#include "skin/base_lut.h"
+#include "skin/recolour.h"
 
 /// What a POV-Ray scene is written from, in plain numbers: world coordinates as Blender has them
 /// (right-handed, z up), one unit of length a metre for the lamps, radians, linear Rec.709.

@@ -3,7 +3,7 @@
 #include <array>
 #include <charconv>
 
-#include "argument_check.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow {
 namespace {

@@ -9,9 +9,9 @@
 #include <map>
 #include <string_view>
 
-#include "argument_check.h"
 #include "io/file_error.h"
 #include "io/parse_number.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow {
 namespace {

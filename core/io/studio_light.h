@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "light.h"
+#include "light/light.h"
 
 namespace skinglow {
 

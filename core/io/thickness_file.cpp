@@ -2,10 +2,10 @@
 #include <cstdint>
 #include <string>
 
-#include "argument_check.h"
 #include "io/atomic_file.h"
 #include "io/file_error.h"
 #include "io/mesh_file.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow {
 namespace {

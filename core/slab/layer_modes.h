@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "slab/angular_basis.h"
-#include "slab_solver.h"
+#include "slab/slab_solver.h"
 
 namespace skinglow::slab {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "argument_check.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow::slab {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <span>
 
-#include "slab_solver.h"
+#include "slab/slab_solver.h"
 
 namespace skinglow::slab {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "slab/angular_basis.h"
-#include "slab_solver.h"
+#include "slab/slab_solver.h"
 
 namespace skinglow::slab {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "slab/slab_solver.h"
 #include "slab/thickness_kernel.h"
-#include "slab_solver.h"
 
 namespace skinglow::slab {
 

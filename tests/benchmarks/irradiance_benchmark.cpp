@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "light_culling.h"
-#include "surface_irradiance.h"
+#include "light/light_culling.h"
+#include "light/surface_irradiance.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "light_weights.h"
+#include "light/light_weights.h"
 
 namespace {
 

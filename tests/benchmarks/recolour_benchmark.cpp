@@ -4,8 +4,8 @@
 #include <cstring>
 #include <vector>
 
-#include "fixed_lookup.h"
-#include "recolour.h"
+#include "skin/fixed_lookup.h"
+#include "skin/recolour.h"
 
 namespace {
 

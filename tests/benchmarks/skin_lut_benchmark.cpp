@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "diffusion_approximation.h"
-#include "skin_lut.h"
-#include "skin_transmittance.h"
+#include "skin/diffusion_approximation.h"
+#include "skin/skin_lut.h"
+#include "skin/skin_transmittance.h"
 
 namespace {
 

@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "slab_solver.h"
-#include "thickness_curve.h"
-#include "tissue.h"
+#include "skin/tissue.h"
+#include "slab/slab_solver.h"
+#include "slab/thickness_curve.h"
 
 namespace {
 

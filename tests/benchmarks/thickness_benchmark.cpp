@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "../core/mesh_shapes.h"
-#include "cone_sampling.h"
-#include "thickness.h"
-#include "welded_mesh.h"
+#include "rays/cone_sampling.h"
+#include "rays/thickness.h"
+#include "rays/welded_mesh.h"
 
 /// What a thickness costs, against the least one could do (a single ray along the axis, by the same Embree)
 /// and against the same rays without an acceleration structure. The shell is about as fine as a head (13,000

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "../core/mesh_shapes.h"
-#include "visibility.h"
+#include "rays/visibility.h"
 
 /// Shadow rays a second, against every triangle for every ray, and growth with triangles, lamps and threads.
 /// The scene is a ball between places on a floor and a lamp above: some rays meet it.

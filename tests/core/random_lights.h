@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "light.h"
+#include "light/light.h"
 
 /// Scenes that a person would not think of: every kind of lamp, sizes and powers over decades, negative
 /// power, lamps in and on the box of the object.

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "tissue.h"
+#include "skin/tissue.h"
 
 namespace skinglow {
 

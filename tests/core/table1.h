@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "light.h"
+#include "light/light.h"
 
 /// The paper's experiment (Table 1) and what Eq. 1-3 give for it with coefficients (1, 0, 1), worked out by
 /// hand in exact fractions and rounded once, to double.

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "fixed_lookup.h"
 #include "io/file_error.h"
 #include "io/lut_file.h"
 #include "scratch_folder.h"
+#include "skin/fixed_lookup.h"
 #include "test_image.h"
 
 namespace skinglow::test {

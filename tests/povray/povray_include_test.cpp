@@ -9,8 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "fixed_lookup.h"
 #include "io/sdl_text.h"
+#include "skin/fixed_lookup.h"
 #include "table1.h"
 
 using namespace skinglow;

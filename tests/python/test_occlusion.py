@@ -1,4 +1,4 @@
-"""skinglow.Occluders: closed forms, meshes left out, extremes, refusals. More: tests/core/visibility_test.cpp."""
+"""skinglow.Occluders: closed forms, meshes left out, extremes, refusals. More: tests/core/rays/visibility_test.cpp."""
 
 import os
 import subprocess

@@ -1,7 +1,7 @@
 // Built by the test `installed_package` against the installed skinglow::core alone.
-#include <skinglow/fixed_lookup.h>
-#include <skinglow/light_weights.h>
-#include <skinglow/recolour.h>
+#include <skinglow/light/light_weights.h>
+#include <skinglow/skin/fixed_lookup.h>
+#include <skinglow/skin/recolour.h>
 
 #include <cstdio>
 
