@@ -35,6 +35,7 @@ def draw_all(out: Path, numbers: dict[str, Any]) -> None:
     pictures(out / "existing_and_proposed.png", out, [("table1", "Table 1's lamps")])
     pictures(out / "colour_change.png", out, [("orange", "an orange lamp"), ("blue", "the lamp turned blue")])
     pictures(out / "rim.png", out, [("rim", "rim lights")])
+    physical(out / "physical.png", out)
     hosts(out / "blender_and_povray.png", out, numbers)
 
 
@@ -82,6 +83,19 @@ def pictures(path: Path, out: Path, rows: list[tuple[str, str]]) -> None:
             axis.axis("off")
             if not view:
                 axis.set_title(f"{'existing' if mode == 'existing' else 'proposed'}: {title}", loc="left")
+    save(figure, path)
+
+
+def physical(path: Path, out: Path) -> None:
+    """Mode physical: the whole head and the ear, by one weight for the object and by light at each pixel."""
+    titles = {"object": "one weight for the object", "surface": "light at each pixel"}
+    figure, axes = plt.subplots(1, 4, figsize=(16, 4.4))
+    pictures_of = [(weights, view) for weights in titles for view in ("", "_ear")]
+    for axis, (weights, view) in zip(axes, pictures_of, strict=True):
+        axis.imshow(plt.imread(out / f"physical_{weights}{view}.png"))
+        axis.axis("off")
+        if not view:
+            axis.set_title(f"physical: {titles[weights]}", loc="left")
     save(figure, path)
 
 

@@ -23,7 +23,8 @@ def write(out: Path, numbers: dict[str, Any]) -> None:
         f"<style>{STYLE}</style><h1>Skin that glows in the colour of your lights</h1>",
         f"<p>{html.escape(head['name'])} at {head['unit_mm']:g} mm per unit, {numbers['vertices']:,} points; "
         f"{html.escape(head['licence'])}. Rendered by Blender {html.escape(numbers['blender'])} (Cycles) and "
-        f"POV-Ray in {numbers['seconds']:.0f} s. Glow strength {numbers['strength']:g} in both modes.</p>",
+        f"POV-Ray in {numbers['seconds']:.0f} s. Glow strength {numbers['strength']:g} in modes existing and paper, "
+        "1 in mode physical.</p>",
         picture(
             "existing_and_proposed.png",
             "Existing against proposed",
@@ -40,6 +41,13 @@ def write(out: Path, numbers: dict[str, Any]) -> None:
             "What the skin lets through at each thickness, per set of lamps.",
         ),
         picture("rim.png", "Rim lights", "Blender's own studio light, or the rig given with --rig."),
+        picture(
+            "physical.png",
+            "Mode physical: the light of one lamp behind the ear",
+            "The skin's own optics times the irradiance on its far side, W/m^2, nothing scaled by hand; exposed by "
+            f"{numbers['exposure_stops']:g} stops more. One weight for the whole head also lights what the lamp does "
+            "not reach (the corners of the eyes); weights on the surface know where the lamp is.",
+        ),
         picture(
             "blender_and_povray.png",
             "The same light in Blender and in POV-Ray",
