@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "numerics/worst.h"
 #include "skin/skin_transmittance.h"
 
 namespace skinglow {
@@ -12,7 +13,7 @@ namespace {
 constexpr double darkest = 1e-6;  // what the norm takes for the smallest number of a column
 
 double largest(const glm::dvec3& column) {
-    return std::max({std::abs(column.x), std::abs(column.y), std::abs(column.z)});
+    return worst(worst(std::abs(column.x), std::abs(column.y)), std::abs(column.z));
 }
 
 }  // namespace
@@ -29,14 +30,14 @@ std::vector<glm::dmat3> matrices(const ThicknessRows& log_transmittance, std::si
 double matrix_error(const glm::dmat3& matrix, const glm::dmat3& exact) {
     double error = 0.0;
     for (int j = 0; j < 3; ++j) {
-        error = std::max(error, largest(matrix[j] - exact[j]) / std::max(largest(exact[j]), darkest));
+        error = worst(error, largest(matrix[j] - exact[j]) / std::max(largest(exact[j]), darkest));
     }
     return error;
 }
 
 double largest_error(const std::vector<glm::dmat3>& found, const std::vector<glm::dmat3>& exact) {
     double error = 0.0;
-    for (std::size_t i = 0; i < found.size(); ++i) error = std::max(error, matrix_error(found[i], exact[i]));
+    for (std::size_t i = 0; i < found.size(); ++i) error = worst(error, matrix_error(found[i], exact[i]));
     return error;
 }
 
@@ -103,7 +104,7 @@ SampledSkin::Gap SampledSkin::solved_gap(std::size_t first, std::size_t last, do
                 std::min(0.5, std::max(0.5 * off, with_blood * bend)) * std::exp(diffusion_[k][i]);
             for (int j = 0; j < 3; ++j) change[j] += part * largest(matrix_weights()[k][j]);
         }
-        for (int j = 0; j < 3; ++j) surprise = std::max(surprise, change[j] / scale_[i][j]);
+        for (int j = 0; j < 3; ++j) surprise = worst(surprise, change[j] / scale_[i][j]);
     }
     return {first, last, surprise};
 }
@@ -180,7 +181,7 @@ double SampledSkin::stream_difference(int streams) const {
         const ThicknessRow better = solved_log_transmittance(k, correction_[k].size(), streams);
         for (std::size_t i = 0; i < better.size(); ++i) {
             difference =
-                std::max(difference, std::abs(std::expm1(diffusion_[k][i] + correction_[k][i] - better[i])));
+                worst(difference, std::abs(std::expm1(diffusion_[k][i] + correction_[k][i] - better[i])));
         }
     }
     return difference;

@@ -8,6 +8,7 @@
 
 #include "colour/spectrum.h"
 #include "numerics/argument_check.h"
+#include "numerics/worst.h"
 #include "skin/sampled_skin.h"
 #include "skin/skin_transmittance.h"
 #include "skin/thickness_nodes.h"
@@ -154,7 +155,7 @@ double lut_error(const BaseLut& lut, const BaseLut& exact) {
     }
     double error = 0.0;
     for (std::size_t i = 0; i < lut.size(); ++i) {
-        error = std::max(error, matrix_error(lut.matrices()[i], exact.matrices()[i]));
+        error = worst(error, matrix_error(lut.matrices()[i], exact.matrices()[i]));
     }
     return error;
 }

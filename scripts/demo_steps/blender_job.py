@@ -22,6 +22,7 @@ import bpy  # noqa: E402
 import blender_scene as stage  # noqa: E402  isort: skip
 import numpy as np  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
+from job_steps import Steps  # noqa: E402
 
 OUT = Path(JOB["out"])
 MODES = ("existing", "paper")
@@ -32,17 +33,6 @@ STRENGTH = 20.0
 # What comes through skin is dark beside what lights it directly: the picture of mode physical is exposed for it.
 EXPOSURE_STOPS = 2.0
 ORANGE, BLUE = (1.0, 112 / 255, 69 / 255), (15 / 255, 64 / 255, 1.0)  # two lamps of Table 1
-
-
-class Steps:
-    """Says what is done and how far it is, in lines that blender_host understands."""
-
-    def __init__(self, of: int) -> None:
-        self.done, self.of = 0, of
-
-    def __call__(self, text: str) -> None:
-        self.done += 1
-        print("@skinglow " + json.dumps({"step": text, "done": self.done, "of": self.of}), flush=True)
 
 
 class Studio:

@@ -21,6 +21,7 @@ import numpy as np  # noqa: E402
 import shading  # noqa: E402
 import skinglow as sg  # noqa: E402
 import slab_check  # noqa: E402
+from job_steps import Steps  # noqa: E402
 from medium import SKIN1  # noqa: E402
 
 OUT = Path(JOB["out"])
@@ -30,17 +31,6 @@ LOOKUP_SAMPLES = 16
 REPEATS = 3
 BOUNCES = 4
 REFERENCE_SEEDS, WALK_SEED, EQUAL_TIME_SEED = (1, 2), 3, 4
-
-
-class Steps:
-    """Says what is done and how far it is, in lines that blender_host understands."""
-
-    def __init__(self, of: int) -> None:
-        self.done, self.of = 0, of
-
-    def __call__(self, text: str) -> None:
-        self.done += 1
-        print("@skinglow " + json.dumps({"step": text, "done": self.done, "of": self.of}), flush=True)
 
 
 def lookup_materials(ear: ear_scene.Ear) -> dict[str, Any]:
