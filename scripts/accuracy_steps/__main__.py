@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import platform
 from pathlib import Path
 
@@ -158,6 +159,7 @@ def weights_section() -> str:
 
 
 def main() -> None:
+    argparse.ArgumentParser(prog="scripts/accuracy", description=__doc__).parse_args()
     IMAGES.mkdir(parents=True, exist_ok=True)
     say("presets")
     plots.presets(IMAGES / "accuracy_presets.png")

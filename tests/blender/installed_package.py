@@ -56,6 +56,7 @@ def use():
     ]
     found["rays"] = sys.modules["skinglow._rays"].__file__
     found["render"] = render()
+    found["batch"] = batch(sb)
     found["warnings"] = warnings()
     found["opened"] = sorted({os.path.realpath(name) for name in OPENED if name.startswith("/")})
     maps = Path("/proc/self/maps").read_text().splitlines()
@@ -116,6 +117,16 @@ def render():
     picture = bpy.data.images.load(scene.render.filepath)
     pixels = picture.pixels[:]
     return max(value for channel in range(3) for value in pixels[channel::4])
+
+
+def batch(sb):
+    """Two frames by a rig file, then again: how many were rendered and kept each time, and the manifest's lines."""
+    rig = {"skinglow_rig": 1, "lights": [{"kind": "POINT", "power": 5.0, "position": [0.1, 0.0, 0.0]}]}
+    Path("rig.json").write_text(json.dumps(rig))
+    folder = Path.cwd() / "batch"
+    runs = [sb.render_batch(folder, "1-2", ["rig.json"]) for _ in range(2)]
+    counts = [[len(run.rendered), len(run.kept), len(run.failed)] for run in runs]
+    return {"counts": counts, "lines": [json.loads(line)["rig"] for line in (folder / "manifest.jsonl").open()]}
 
 
 def warnings():

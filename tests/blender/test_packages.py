@@ -175,6 +175,7 @@ def test_installed_by_blender_and_used_without_the_project(host: Host, tmp_path:
     for (kind, text), argument in zip(found["refused"], ("triangles", "distance", "rig.json"), strict=True):
         assert kind == "ValueError" and argument in text, f"{kind}: {text}"
     assert 0.0 < found["render"] < 100.0
+    assert found["batch"] == {"counts": [[2, 0, 0], [0, 2, 0]], "lines": ["rig", "rig"]}
     assert found["warnings"] == {}
     assert found["handlers_left"] == []
     assert found["removed"] == []
