@@ -54,7 +54,9 @@ void take_comment(std::string_view line, HeaderText& text) {
 void write_lut_csv(const std::filesystem::path& path, const LutTable& table) {
     const LutAxis axis(table.colours.size(), table.record.max_thickness_mm);
     std::string text = "# Light coming through skin, linear Rec.709, by thickness in mm.\n";
-    for (const auto& [key, value] : to_header_text(table.record)) text += "# " + key + ": " + value + "\n";
+    for (const auto& [key, value] : to_header_text(table.record)) {
+        text.append("# ").append(key).append(": ").append(value).append("\n");
+    }
     text += column_names;
     text += '\n';
     for (std::size_t i = 0; i < table.colours.size(); ++i) {

@@ -2,6 +2,7 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cstdint>
 #include <cstring>
 #include <optional>
 #include <string_view>
@@ -191,7 +192,8 @@ class PlyReader {
         const bool is_face =
             element.name == "face" && (property.name == "vertex_indices" || property.name == "vertex_index");
         corners_.clear();
-        for (double i = 0.0; i < count; ++i) {
+        const auto entries = static_cast<std::uint64_t>(std::min(count, 1e15));  // any file ends before
+        for (std::uint64_t i = 0; i < entries; ++i) {
             const double value = take_number(property.type, where);
             if (!is_face) continue;
             if (!(value >= 0.0 && value < static_cast<double>(vertices_.size()))) {

@@ -103,12 +103,14 @@ class RimIntegrand {
 double integrate_rim(const RimIntegrand& rim, double from, double to, double finest, double tolerance) {
     std::vector<double> cuts = {from, to};
     const double near = rim.near_angle();
-    for (double step = std::clamp(finest, 1e-12, pi / 4); step < pi; step *= 2) {
+    double step = std::clamp(finest, 1e-12, pi / 4);
+    while (step < pi) {
         for (const double turn : {-2 * pi, 0.0, 2 * pi}) {
             for (const double cut : {near + turn - step, near + turn, near + turn + step}) {
                 if (cut > from && cut < to) cuts.push_back(cut);
             }
         }
+        step *= 2;
     }
     std::sort(cuts.begin(), cuts.end());
     double sum = 0;
