@@ -22,7 +22,8 @@ def run(folder: Path, *arguments: str) -> None:
     """Raises PovrayError unless POV-Ray ends with exit code 0."""
     done = subprocess.run(["povray", *arguments, "-D"], cwd=folder, capture_output=True, text=True, timeout=300)
     if done.returncode != 0:
-        raise PovrayError(re.sub(r"\s+", " ", done.stderr.split("[Parsing...]")[-1]))
+        # All of it: the heading "[Parsing...]" comes from another thread, before the messages or after them.
+        raise PovrayError(re.sub(r"=+ \[Parsing\.\.\.\] =+|\s+", " ", done.stderr))
 
 
 def numbers(folder: Path, expressions: list[str], declarations: str = "") -> list[float]:
