@@ -4,8 +4,10 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <string>
 
+#include "light/area_angular_weight.h"
 #include "light/spherical_harmonics.h"
 #include "numerics/argument_check.h"
 
@@ -72,8 +74,32 @@ void calibrate(Lamp& lamp, const glm::dvec3& middle) {
     for (SurfaceTerm& term : lamp.terms) term.strength *= factor;
 }
 
+/// The angles that terms are measured by: none, or the cubic as a weight, so that what the cubic itself is
+/// off by does not ask for tiles.
+struct Angles {
+    AngularCubic cubic = lambert_cubic;
+    std::optional<AngularWeight> weight;
+};
+
+Angles angles_of(const AngularWeight* angular_weight, std::span<const Lamp> lamps) {
+    if (angular_weight == nullptr) return {};
+    Angles angles{angular_weight->cubic(), {}};
+    // Other lamps have but one angle at a place.
+    const auto is_area = [](const Lamp& lamp) { return lamp.light.kind() == LightKind::area; };
+    if (std::none_of(lamps.begin(), lamps.end(), is_area)) return angles;
+    constexpr int steps = 32;
+    std::vector<double> mu;
+    std::vector<glm::dvec3> values;
+    for (int i = 0; i <= steps; ++i) {
+        mu.push_back(static_cast<double>(i) / steps);
+        values.push_back(glm::max(evaluate(angles.cubic, mu.back()), glm::dvec3(0.0)));
+    }
+    angles.weight.emplace(mu, values);
+    return angles;
+}
+
 /// Cuts a lamp and finds how far off its terms are.
-void cut(Lamp& lamp, std::size_t tiling, const Box& box) {
+void cut(Lamp& lamp, std::size_t tiling, const Box& box, const Angles& angles) {
     auto [columns, rows] = tilings[tiling];
     if (lamp.light.area() && lamp.light.area()->half_y() > lamp.light.area()->half_x())
         std::swap(columns, rows);
@@ -82,9 +108,12 @@ void cut(Lamp& lamp, std::size_t tiling, const Box& box) {
     lamp.error = 0;
     if (lamp.light.kind() != LightKind::area) return;
     calibrate(lamp, box.middle());
+    std::optional<AreaAngularWeight> by_angle;
+    if (angles.weight) by_angle.emplace(lamp.light, *angles.weight);
     const auto measure = [&](const glm::dvec3& place, const glm::dvec3& normal) {
         glm::dvec3 sum = -lamp.light.irradiance(place, normal, 1e-3) * lamp.strength;
-        for (const SurfaceTerm& term : lamp.terms) sum += term.irradiance(place, normal, lambert_cubic);
+        if (by_angle) sum *= by_angle->mean(place, normal);
+        for (const SurfaceTerm& term : lamp.terms) sum += term.irradiance(place, normal, angles.cubic);
         lamp.error = std::max(lamp.error, largest(sum));
     };
     for (const glm::dvec3& place : telling_places(box, lamp.light))
@@ -106,7 +135,8 @@ std::size_t most_tilings(const Lamp& lamp) {
 }
 
 /// Cuts the lamp with the largest error further, as long as that matters and there is room.
-void refine(std::span<Lamp> lamps, const Box& box, const SurfaceLightingOptions& options) {
+void refine(std::span<Lamp> lamps, const Box& box, const Angles& angles,
+            const SurfaceLightingOptions& options) {
     std::size_t used = 0;
     double whole = 0;
     for (const Lamp& lamp : lamps) {
@@ -128,7 +158,7 @@ void refine(std::span<Lamp> lamps, const Box& box, const SurfaceLightingOptions&
             continue;
         }
         used += wanted - lamp.terms.size();
-        cut(lamp, lamp.tiling + 1, box);
+        cut(lamp, lamp.tiling + 1, box, angles);
     }
 }
 
@@ -139,11 +169,12 @@ SurfaceLighting::SurfaceLighting(std::span<const Light> lights, const Box& box,
                                  const SurfaceLightingOptions& options) {
     validate(box);
     require_positive("tolerance", options.tolerance);
-    if (angular_weight != nullptr) angular_ = angular_weight->cubic();
     std::vector<Lamp> lamps = lamps_that_shine(lights, box);
     const std::span<Lamp> near(lamps.data(), std::min(lamps.size(), options.max_terms));
-    for (Lamp& lamp : near) cut(lamp, 0, box);
-    refine(near, box, options);
+    const Angles angles = angles_of(angular_weight, near);
+    angular_ = angles.cubic;
+    for (Lamp& lamp : near) cut(lamp, 0, box, angles);
+    refine(near, box, angles, options);
 
     const auto take = [&](bool plain) {
         for (const Lamp& lamp : near) {

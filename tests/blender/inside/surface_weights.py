@@ -60,7 +60,7 @@ def largest_difference(work, engine="CYCLES"):
 
 
 def check_each_kind_of_lamp(work):
-    """Near the exact irradiance with the skin's own angles: the cubic is 1 % off, a tile at one angle 1 % more."""
+    """Near the exact irradiance with the skin's own angles: the cubic is 1 % off, tiles up to 1 % more."""
     skin()
     below = {"location": (0.3, -0.2, -1.5)}
     turned = (np.pi, 0.15, 0.0)
