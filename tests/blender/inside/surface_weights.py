@@ -80,7 +80,8 @@ def check_each_kind_of_lamp(work):
             setattr(obj.data, name, value)
         found[f"{kind} {settings}"] = largest_difference(work)
         bpy.data.objects.remove(obj)
-    off = {name: value for name, value in found.items() if not value < 0.025}
+    # A spread is the one that four tiles, cut to a tolerance of 1 %, do not bring within it: 2.04 % measured.
+    off = {name: value for name, value in found.items() if not value < (0.022 if "spread" in name else 0.02)}
     assert not off, off
     return found
 
