@@ -3,7 +3,7 @@
 //
 //   cd povray_macros && povray example.pov +W640 +H480 -D +A0.1 Declare=Blue=1
 //
-// Lengths are in decimetres, so that the lamps stand about 1 from the ears, as in the paper's Table 1; thickness in mm.
+// Lengths are in decimeters, so that the lamps stand about 1 from the ears, as in the paper's Table 1; thickness in mm.
 
 #version 3.7;
 #include "skinglow.inc"
@@ -11,7 +11,7 @@ global_settings { assumed_gamma 1.0 }
 
 #ifndef (Blue) #declare Blue = 0; #end
 
-#declare Millimetre = 0.01;
+#declare Millimeter = 0.01;
 #declare Max_Thickness = 12;
 #declare Size = 128;
 
@@ -19,7 +19,7 @@ global_settings { assumed_gamma 1.0 }
 
 #declare Lamps = 3;
 #declare Kinds = array[Lamps] {"POINT", "POINT", "POINT"}
-#declare Colours = array[Lamps] {(Blue ? <15, 64, 255> / 255 : <255, 112, 69> / 255), <1, 0.9, 0.8>, <0.5, 0.6, 1>}
+#declare Colors = array[Lamps] {(Blue ? <15, 64, 255> / 255 : <255, 112, 69> / 255), <1, 0.9, 0.8>, <0.5, 0.6, 1>}
 #declare Positions = array[Lamps] {<0, 0.35, 0.8>, <-2.5, 2, -3.5>, <3, 1, -3>}
 #declare Powers = array[Lamps] {40, 60, 30}  // W, as in Blender
 
@@ -27,14 +27,14 @@ global_settings { assumed_gamma 1.0 }
 // 2 / (1 + (d / f)^2).
 #declare F = 1e-3;
 #for (K, 0, Lamps - 1)
-    light_source { Positions[K] rgb Colours[K] * Powers[K] / (4 * pi * pi) / (2 * F * F) fade_distance F fade_power 2 }
+    light_source { Positions[K] rgb Colors[K] * Powers[K] / (4 * pi * pi) / (2 * F * F) fade_distance F fade_power 2 }
 #end
 
 // ---- lookups: Eq. 1-3 and the fixed one. Strength: what share of the lamps' light is let in.
 
-#declare Light = Skinglow_Light_Weight(Lamps, Kinds, Colours, Positions, Powers, <0, 0, 0>, <1, 0, 1>);
+#declare Light = Skinglow_Light_Weight(Lamps, Kinds, Colors, Positions, Powers, <0, 0, 0>, <1, 0, 1>);
 #declare Base = Skinglow_Six_Gaussian_Base(Size, Max_Thickness)
-#declare Recoloured = Skinglow_Recolour(Base, Skinglow_Blood, Light)
+#declare Recolored = Skinglow_Recolor(Base, Skinglow_Blood, Light)
 #declare Fixed = Skinglow_Six_Gaussian(Size, Max_Thickness)
 
 // ---- the ear: two skins, a front with folds and a back, a known thickness apart
@@ -55,7 +55,7 @@ global_settings { assumed_gamma 1.0 }
 
 #macro Ear_Point(R, Angle, Side)
     #local Depth = -Ear_Fold(R, Angle) + Side * Ear_Thickness(R, Angle) / 2;
-    (Millimetre * <R * cos(Angle) * (19 + 5 * sin(Angle)), R * sin(Angle) * 31, Depth + 5 * R * cos(Angle)>)
+    (Millimeter * <R * cos(Angle) * (19 + 5 * sin(Angle)), R * sin(Angle) * 31, Depth + 5 * R * cos(Angle)>)
 #end
 
 #macro Ear_Normal(R, Angle, Side)
@@ -95,7 +95,7 @@ global_settings { assumed_gamma 1.0 }
 #declare Skin = pigment { rgb <0.50, 0.27, 0.19> }
 
 object { Ear texture { Skinglow_Skin(Skin, 1, Skinglow_Table_Pigment(Fixed), 0.7) } translate -0.24 * x }
-object { Ear texture { Skinglow_Skin(Skin, 1, Skinglow_Table_Pigment(Recoloured), 0.7) } translate 0.24 * x }
+object { Ear texture { Skinglow_Skin(Skin, 1, Skinglow_Table_Pigment(Recolored), 0.7) } translate 0.24 * x }
 
 background { rgb <0.01, 0.011, 0.013> }
 camera { location <0, 0, -3> direction z right 0.36 * x up 0.27 * y }

@@ -17,7 +17,7 @@ global_settings { assumed_gamma 1.0 }
     #end
 #end
 
-#macro Verify_Colour(Name, Value, Expected)
+#macro Verify_Color(Name, Value, Expected)
     Verify(concat(Name, ".r"), Value.x, Expected.x)
     Verify(concat(Name, ".g"), Value.y, Expected.y)
     Verify(concat(Name, ".b"), Value.z, Expected.z)
@@ -26,7 +26,7 @@ global_settings { assumed_gamma 1.0 }
 // Table 1: bytes / 255, each lamp at its distance from the origin in a direction of its own. Coefficients (1, 0, 1).
 #declare Distances = array[3] {0.92357, 0.85231, 1.01292}
 #declare Kinds = array[3] {"POINT", "SPOT", "AREA"}
-#declare Colours = array[3] {<255, 112, 69> / 255, <15, 64, 255> / 255, <1, 1, 1>}
+#declare Colors = array[3] {<255, 112, 69> / 255, <15, 64, 255> / 255, <1, 1, 1>}
 #declare Positions = array[3] {Distances[0] * x, Distances[1] * <0, -0.6, 0.8>, -Distances[2] * z}
 #declare Powers = array[3] {100, 1, -1}
 
@@ -34,19 +34,19 @@ global_settings { assumed_gamma 1.0 }
 #declare Terms = array[3] {<0.5396707823412062, 0.2370318730282945, 0.14602856463350286>,
                            <0.034072305170468886, 0.14537516872733391, 0.5792291878979711>,
                            <0.49358172816165746, 0.49358172816165746, 0.49358172816165746>}
-#declare Weights = Skinglow_Light_Weights(3, Kinds, Colours, Positions, Powers, <0, 0, 0>, <1, 0, 1>)
+#declare Weights = Skinglow_Light_Weights(3, Kinds, Colors, Positions, Powers, <0, 0, 0>, <1, 0, 1>)
 #for (K, 0, 2)
     Verify(concat("attenuation", str(K + 1, 0, 0)), Skinglow_Attenuation(Distances[K], <1, 0, 1>), Attenuations[K])
-    Verify_Colour(concat("weight", str(K + 1, 0, 0)), Weights[K], Terms[K])
+    Verify_Color(concat("weight", str(K + 1, 0, 0)), Weights[K], Terms[K])
 #end
 
-#declare Light = Skinglow_Light_Weight(3, Kinds, Colours, Positions, Powers, <0, 0, 0>, <1, 0, 1>);
-Verify_Colour("L", Light, <1.0673248156733326, 0.8759887699172859, 1.2188394806931313>)
+#declare Light = Skinglow_Light_Weight(3, Kinds, Colors, Positions, Powers, <0, 0, 0>, <1, 0, 1>);
+Verify_Color("L", Light, <1.0673248156733326, 0.8759887699172859, 1.2188394806931313>)
 
 #declare Base = array[2] {1, 0.25}
-#declare Table = Skinglow_Recolour(Base, Skinglow_Blood, Light)
-Verify_Colour("B+L", Table[0], <2.8673248156733324, 1.375988769917286, 1.6188394806931314>)
-Verify_Colour("quarter", Table[1], <0.7168312039183331, 0.3439971924793215, 0.40470987017328286>)
+#declare Table = Skinglow_Recolor(Base, Skinglow_Blood, Light)
+Verify_Color("B+L", Table[0], <2.8673248156733324, 1.375988769917286, 1.6188394806931314>)
+Verify_Color("quarter", Table[1], <0.7168312039183331, 0.3439971924793215, 0.40470987017328286>)
 
 #fclose Numbers
 #debug "skinglow.inc: Table 1 agrees to 1e-12\n"

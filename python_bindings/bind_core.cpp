@@ -9,7 +9,7 @@
 #include "numpy_conversion.h"
 #include "skin/base_lut.h"
 #include "skin/fixed_lookup.h"
-#include "skin/recolour.h"
+#include "skin/recolor.h"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -35,7 +35,7 @@ py::object attenuation_of_array(py::handle distance, py::handle coefficients) {
 BaseLut base_lut_of_array(py::handle values, double max_thickness_mm) {
     const numpy::Array table = numpy::to_array(values, "values");
     if (table.ndim() == 1) {
-        return BaseLut::from_grey({table.data(), static_cast<std::size_t>(table.size())}, max_thickness_mm);
+        return BaseLut::from_gray({table.data(), static_cast<std::size_t>(table.size())}, max_thickness_mm);
     }
     if (table.ndim() != 3 || table.shape(1) != 3 || table.shape(2) != 3) {
         refuse_argument("values", "of shape " + numpy::shape_text(table), "shape (size,) or (size, 3, 3)");
@@ -65,7 +65,7 @@ Returns a float or an array of the same shape. Raises ValueError on anything els
                 light_weights(lights, numpy::to_vec3(point, "point"), to_coefficients(coefficients)));
         },
         "lights"_a, "point"_a, "coefficients"_a = py::make_tuple(1.0, 0.0, 1.0),
-        R"(Each light's term of Eq. 3, colour * attenuation(distance to point), shape (n, 3), linear Rec.709.
+        R"(Each light's term of Eq. 3, color * attenuation(distance to point), shape (n, 3), linear Rec.709.
 
 A sun has no distance: its attenuation is 1. A light that is off (hidden, power 0, black) gives (0, 0, 0).
 point  (3,), in the scene's length unit. Raises ValueError naming what is wrong.)");
@@ -114,14 +114,14 @@ scale * thickness_mm + offset. Clamp the image at its ends ("extend").)")
                    to_text(self.axis().max_thickness_mm()) + " mm>";
         });
     m.def(
-        "recolour",
+        "recolor",
         [](const BaseLut& base, py::handle weight) {
-            return numpy::from_vec3s(recolour(base, numpy::to_vec3(weight, "weight")));
+            return numpy::from_vec3s(recolor(base, numpy::to_vec3(weight, "weight")));
         },
         "base"_a, "weight"_a,
-        R"(The recoloured table M(d) @ weight, shape (size, 3), linear Rec.709; values above 1 are kept.
+        R"(The recolored table M(d) @ weight, shape (size, 3), linear Rec.709; values above 1 are kept.
 
-Mode `paper` (Eq. 1): a grey base and weight = B + L. Mode `physical`: weight = E on the far side, W/m^2.
+Mode `paper` (Eq. 1): a gray base and weight = B + L. Mode `physical`: weight = E on the far side, W/m^2.
 weight  (3,), finite. Raises ValueError on bad input or where a product is beyond the largest double.)");
     m.def(
         "six_gaussian_lookup",
@@ -137,7 +137,7 @@ weight  (3,), finite. Raises ValueError on bad input or where a product is beyon
             return six_gaussian_base({size, max_thickness_mm});
         },
         "size"_a = 256, "max_thickness_mm"_a = 12.0,
-        "The default grey base lookup BLL of mode `paper`: the Rec.709 luminance of six_gaussian_lookup.");
+        "The default gray base lookup BLL of mode `paper`: the Rec.709 luminance of six_gaussian_lookup.");
     m.attr("PAPER_BLOOD_WEIGHT") =
         py::make_tuple(paper_blood_weight.x, paper_blood_weight.y, paper_blood_weight.z);
 }

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "light/environment.h"
-#include "light/prepared_light.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
+#include "radiometry/environment.h"
+#include "radiometry/prepared_light.h"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -89,7 +89,7 @@ radiance  (3,) constant, W/(m^2 sr), 0 or more; or (9, 3) coefficients, orthonor
                     "projection"_a = "EQUIRECTANGULAR", "bottom_first"_a = false,
                     R"(From float32 pixels as they are, which are not copied: for large images.
 
-pixels        (height, width, channels), finite; R, G, B first, or grey where there are fewer than 3 channels
+pixels        (height, width, channels), finite; R, G, B first, or gray where there are fewer than 3 channels
 projection    'EQUIRECTANGULAR', or 'MIRROR_BALL': the square picture of a mirrored ball seen along +y, z up
 bottom_first  whether the first row is the lowest, as in Blender's pixels. Raises ValueError naming what is wrong.)")
         .def(

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "light/environment.h"
-#include "light/irradiance.h"
 #include "light/light_units.h"
-#include "light/prepared_light.h"
-#include "light/surface_irradiance.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
+#include "radiometry/environment.h"
+#include "radiometry/prepared_light.h"
+#include "rig/irradiance.h"
+#include "rig/surface_irradiance.h"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -29,7 +29,7 @@ void bind_object_weights(py::module_& m) {
         "lights"_a, "point"_a, "tolerance"_a = default_area_tolerance,
         R"(What each light brings to a point on a surface that faces it, shape (n, 3), W/m^2, linear Rec.709.
 
-Units are Blender's, a unit of length is a metre: a point light of P watts gives P / (4 pi d^2), a spot the same times
+Units are Blender's, a unit of length is a meter: a point light of P watts gives P / (4 pi d^2), a spot the same times
 its cone, a sun P, an area light the irradiance of its shape at radiance P / (pi A). Lights that are off give zeros,
 negative power takes light away. No light is nearer than 1e-6.
 point      (3,), world
@@ -162,14 +162,14 @@ depth  a number or (n,), in the scene's length unit (not mm), 0 or more)");
 void bind_units(py::module_& m) {
     m.def("exposure_factor", &exposure_factor, "stops"_a,
           "2^stops: the factor on a light's power for its exposure.");
-    m.def("unnormalised_power_factor", &unnormalised_power_factor, "light"_a,
+    m.def("unnormalized_power_factor", &unnormalized_power_factor, "light"_a,
           "The factor on the power of a light whose `normalize` is off: the area of what glows, scene unit "
           "squared\n"
           "(area light: its area; point and spot: 4 pi r^2; sun: pi sin^2(angle / 2)).");
     m.def(
-        "black_body_colour", [](double kelvin) { return numpy::from_vec3(black_body_colour(kelvin)); },
+        "black_body_color", [](double kelvin) { return numpy::from_vec3(black_body_color(kelvin)); },
         "kelvin"_a,
-        "Colour of a black body, (3,) linear Rec.709 of luminance 1, none below 0; 800 to 20000 K.");
+        "Color of a black body, (3,) linear Rec.709 of luminance 1, none below 0; 800 to 20000 K.");
     m.attr("LEGACY_AREA_POWER_FACTOR") = legacy_area_power_factor;
     m.def("legacy_sun_power_factor", &legacy_sun_power_factor, "angle"_a,
           "2 c / (1 + c), c = cos(angle / 2): the factor on the power of a sun in Blender 3.4; angle in "

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "light/light_bounds.h"
-#include "light/light_culling.h"
-#include "light/light_report.h"
 #include "numpy_conversion.h"
+#include "rig/light_bounds.h"
+#include "rig/light_culling.h"
+#include "rig/light_report.h"
 
 namespace py = pybind11;
 using namespace py::literals;

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "io/povray_include.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
+#include "povray/povray_include.h"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -144,7 +144,7 @@ std::map<std::string, std::string> povray_scene(
     scene.lut.glow = image.empty() ? PovrayGlow::macros : PovrayGlow::image;
     scene.lut.image = std::move(image);
     if (!base.is_none() && scene.lut.mode == LutMode::paper) {
-        scene.lut.base = grey_entries(base.cast<const BaseLut&>());
+        scene.lut.base = gray_entries(base.cast<const BaseLut&>());
     }
     const glm::dvec3 k = numpy::to_vec3(coefficients, "coefficients");
     scene.lut.coefficients = {k.x, k.y, k.z};
@@ -185,7 +185,7 @@ projection | angle_x | ortho_width   one of: (4, 4) as camera.calc_matrix_camera
                      it; full angle of the width, radians; width in scene units (the latter two: square pixels, and
                      shift in shares of the longer side)
 mode                 "existing", "paper" or "physical"
-base | size, max_thickness_mm   the table's axis; mode "paper" by macros needs base, a grey BaseLut
+base | size, max_thickness_mm   the table's axis; mode "paper" by macros needs base, a gray BaseLut
 image                name of the lookup's EXR in the folder (POV-Ray reads it as half floats); "": the macros compute
                      the lookup from base and lights, in doubles (not in mode "physical")
 lights               [Light]; those that are off are left out

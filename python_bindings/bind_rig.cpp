@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "io/file_error.h"
-#include "io/light_rig.h"
-#include "io/studio_light.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
+#include "rig_files/file_error.h"
+#include "rig_files/light_rig.h"
+#include "rig_files/studio_light.h"
 
 namespace py = pybind11;
 using namespace py::literals;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "colour/spectrum.h"
+#include "color/spectrum.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
 
@@ -52,9 +52,9 @@ void bind_spectrum(py::module_& m) {
         "temperature_k"_a, "Planck's law relative to its largest sample, shape (81,); 500 to 100000 K.");
     m.def(
         "line_spectrum",
-        [](double centre, double fwhm) { return from_spectrum(line_spectrum(centre, fwhm)); }, "centre_nm"_a,
+        [](double center, double fwhm) { return from_spectrum(line_spectrum(center, fwhm)); }, "center_nm"_a,
         "fwhm_nm"_a,
-        "A lamp of one Gaussian line, total power 1, shape (81,); centre 380 to 780 nm, width above 0 to 400 "
+        "A lamp of one Gaussian line, total power 1, shape (81,); center 380 to 780 nm, width above 0 to 400 "
         "nm.");
     m.def(
         "tabulated_spectrum",
@@ -68,11 +68,11 @@ void bind_spectrum(py::module_& m) {
         "wavelength_nm"_a, "power"_a,
         "A measured lamp carried to the 5 nm grid with its power kept, shape (81,); 0 outside the table.");
     m.def(
-        "spectral_colour",
+        "spectral_color",
         [](py::handle spectrum, const py::object& transmittance) {
             const Spectrum lamp = to_spectrum(spectrum, "spectrum");
-            if (transmittance.is_none()) return numpy::from_vec3(spectral_colour(lamp));
-            return numpy::from_vec3(spectral_colour(lamp, to_spectrum(transmittance, "transmittance")));
+            if (transmittance.is_none()) return numpy::from_vec3(spectral_color(lamp));
+            return numpy::from_vec3(spectral_color(lamp, to_spectrum(transmittance, "transmittance")));
         },
         "spectrum"_a, "transmittance"_a = py::none(),
         R"(Linear Rec.709 of a lamp scaled to luminance 1, shape (3,), or of its light behind a filter on the same scale.

@@ -4,10 +4,10 @@
 #include <array>
 #include <vector>
 
-#include "light/light_bounds.h"
-#include "light/surface_lighting.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
+#include "rig/light_bounds.h"
+#include "rig/surface_lighting.h"
 
 namespace py = pybind11;
 using namespace py::literals;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "bind_incidence.h"
-#include "colour/spectrum.h"
+#include "color/spectrum.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
 #include "skin/diffusion_approximation.h"
@@ -163,7 +163,7 @@ largest number of the column (or over 1e-6 where skin lets even less through); o
         "tissue"_a, "size"_a = 256, "max_thickness_mm"_a = 12.0, "tolerance"_a = 1e-3,
         R"(The base lookup of mode `physical`: M(d) of skin lit diffusely from behind, a BaseLut.
 
-recolour(base_lut(tissue), E), with E the irradiance on the far side in W/m^2, is the exitance; over pi, the radiance.
+recolor(base_lut(tissue), E), with E the irradiance on the far side in W/m^2, is the exitance; over pi, the radiance.
 size, max_thickness_mm  as for BaseLut
 tolerance               largest error in SkinLutReport's norm, 1e-6 to 0.1; streams, thicknesses and wavelengths to
                         solve are chosen to meet it

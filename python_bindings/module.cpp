@@ -10,8 +10,7 @@ void bind_povray(pybind11::module_& m);
 void bind_surface_lighting(pybind11::module_& m);
 
 PYBIND11_MODULE(_core, m) {
-    m.doc() =
-        "Light weights, lookup tables, recolouring and skin optics. mm, W, nm, radians, linear Rec.709.";
+    m.doc() = "Light weights, lookup tables, recoloring and skin optics. mm, W, nm, radians, linear Rec.709.";
     m.attr("__version__") = SKINGLOW_VERSION;
     // A function's signature names the classes bound before it.
     bind_light(m);

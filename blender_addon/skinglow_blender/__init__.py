@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Skinglow for Blender: skin that glows in the colour of your lights, updated as they change.
+"""Skinglow for Blender: skin that glows in the color of your lights, updated as they change.
 
 As an add-on it is registered by Blender. From a script: `import skinglow_blender as sb` with this folder's parent on
 `sys.path`, then the functions below. Each registers first if need be; `sb.register()` does so for a file whose skins
@@ -32,7 +32,7 @@ from .skin import SkinState
 
 bl_info = {
     "name": "Skinglow",
-    "description": "Skin that glows in the colour of your lights",
+    "description": "Skin that glows in the color of your lights",
     "author": "Skinglow contributors",
     "version": (0, 1, 0),
     "blender": (3, 4, 0),

@@ -15,7 +15,7 @@ LUMINANCE = np.array((0.2126, 0.7152, 0.0722))
 
 
 def brightness(colors: np.ndarray) -> np.ndarray:
-    """Luminance of linear Rec.709 colours (n, 3), not below 0, (n,)."""
+    """Luminance of linear Rec.709 colors (n, 3), not below 0, (n,)."""
     return np.maximum(colors @ LUMINANCE, 0.0)
 
 

@@ -82,7 +82,7 @@ def light_exposure(light: bpy.types.Light) -> float:
 
 
 def light_temperature_color(light: bpy.types.Light) -> tuple[float, float, float] | None:
-    """Linear colour of the lamp's temperature where that is in use (4.5)."""
+    """Linear color of the lamp's temperature where that is in use (4.5)."""
     if not getattr(light, "use_temperature", False):
         return None
     return tuple(light.temperature_color)

@@ -10,7 +10,7 @@ from mathutils import Matrix
 
 from .errors import core
 from .mesh_reading import evaluated_mesh
-from .scene_reading import MEASURED_UNIT, MM_PER_METRE, Skin, grown
+from .scene_reading import MEASURED_UNIT, MM_PER_METER, Skin, grown
 from .skin_group import THICKNESS_ATTRIBUTE
 
 #: Places that stand for a skin; docs/accuracy.md has the error by their number.
@@ -45,7 +45,7 @@ def far_side_of(obj: bpy.types.Object, matrix: Matrix, skin: Skin) -> FarSide:
         # One by one: all normals of a large mesh would take longer than the rays.
         vertices = np.array([mesh.vertices[i].co for i in chosen.tolist()], np.float64)
         normals = np.array([mesh.vertices[i].normal for i in chosen.tolist()], np.float64)
-    depth = thickness_mm[chosen].astype(np.float64) / original.get(MEASURED_UNIT, MM_PER_METRE)
+    depth = thickness_mm[chosen].astype(np.float64) / original.get(MEASURED_UNIT, MM_PER_METER)
     world = vertices @ to_world[:3, :3].T + to_world[:3, 3]
     # Normals go with the inverse transpose.
     facing = normals @ np.array(matrix.to_3x3().inverted_safe(), np.float64)
@@ -56,7 +56,7 @@ def far_side_of(obj: bpy.types.Object, matrix: Matrix, skin: Skin) -> FarSide:
 def _some_of(count: int) -> np.ndarray:
     """Indices of at most PLACES of so many things, the same each time.
 
-    One anywhere in each of as many stretches: neighbours in a mesh's order mostly are neighbours in space, and even
+    One anywhere in each of as many stretches: neighbors in a mesh's order mostly are neighbors in space, and even
     steps could follow a grid's columns. Half the error of so many places taken at random (measured on a scanned head).
     """
     if count <= PLACES:

@@ -10,7 +10,7 @@ from mathutils import Color
 from . import working_space
 from .errors import SkinError
 
-#: Names of colour spaces whose bytes are linear light already, in Blender's own configurations from 3.4 to 5.2.
+#: Names of color spaces whose bytes are linear light already, in Blender's own configurations from 3.4 to 5.2.
 LINEAR_SPACES = frozenset(("Linear", "Linear Rec.709"))
 #: Pixels decoded at a time, so that a large image needs little memory besides its own.
 DECODED_AT_ONCE = 1 << 20
@@ -39,9 +39,9 @@ def linear_pixels(image: bpy.types.Image) -> np.ndarray:
 
 
 def colorspace_note(image: bpy.types.Image) -> str:
-    """What of an image's colour space could not be followed, or ""."""
+    """What of an image's color space could not be followed, or ""."""
     name = image.colorspace_settings.name
-    return "" if not _is_coded(image) or name == "sRGB" else f"its image's colour space '{name}' is taken as sRGB"
+    return "" if not _is_coded(image) or name == "sRGB" else f"its image's color space '{name}' is taken as sRGB"
 
 
 def _is_coded(image: bpy.types.Image) -> bool:
@@ -52,5 +52,5 @@ def _is_coded(image: bpy.types.Image) -> bool:
 
 @lru_cache(maxsize=1)
 def _linear_of_bytes() -> np.ndarray:
-    greys = (Color((i / 255.0,) * 3).from_srgb_to_scene_linear() for i in range(256))
-    return np.array([grey.from_scene_linear_to_rec709_linear().g for grey in greys], np.float32)
+    grays = (Color((i / 255.0,) * 3).from_srgb_to_scene_linear() for i in range(256))
+    return np.array([gray.from_scene_linear_to_rec709_linear().g for gray in grays], np.float32)

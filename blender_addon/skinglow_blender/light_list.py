@@ -33,19 +33,19 @@ class LightRow(bpy.types.PropertyGroup):
         name="Weight",
         size=3,
         precision=4,
-        description="Red, green and blue: colour times attenuation; in mode physical irradiance, W/m^2",
+        description="Red, green and blue: color times attenuation; in mode physical irradiance, W/m^2",
     )
     distance: FloatProperty(default=-1.0)
     reason: StringProperty()
     note: StringProperty()
     swatch: FloatVectorProperty(
-        name="Colour",
+        name="Color",
         subtype="COLOR",
         size=3,
         min=0.0,
         max=1.0,
         get=lambda row: _hue(row.weight),
-        description="The colour that this lamp brings, at full brightness",
+        description="The color that this lamp brings, at full brightness",
     )
 
 

@@ -12,7 +12,7 @@ MOST_ROWS = 12
 
 
 class SKINGLOW_UL_lights(bpy.types.UIList):  # noqa: N801  Blender's naming
-    """One lamp a line: a colour swatch and its share, or why it gives nothing."""
+    """One lamp a line: a color swatch and its share, or why it gives nothing."""
 
     bl_idname = "SKINGLOW_UL_lights"
 

@@ -19,7 +19,7 @@ def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[
 
     name      of the lamp's object; " in <name>" where something instances it; of the world
     kind      'POINT', 'SUN', 'SPOT', 'AREA' or 'WORLD'
-    weight    (3,) float64: colour times attenuation in modes existing and paper; irradiance, W/m^2, in mode physical
+    weight    (3,) float64: color times attenuation in modes existing and paper; irradiance, W/m^2, in mode physical
     distance  from the skin's reference point, scene units; 0 for a sun and the world, None for a lamp that is not in
               the depsgraph
     angle     between the lamp's axis and the reference point, radians; 0 for a point lamp, a sun and the world, None
@@ -109,7 +109,7 @@ def _world_row(skin: Skin, world: World) -> dict[str, Any]:
     elif not row["reason"]:
         row["weight"], row["note"] = np.array(world.irradiance), world.note
         if not row["weight"].any():
-            row["reason"] = world.note or "its colour or strength is 0"
+            row["reason"] = world.note or "its color or strength is 0"
     return row
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the nodes of a lamp multiply its colour and its power by."""
+"""What the nodes of a lamp multiply its color and its power by."""
 
 from typing import NamedTuple
 
@@ -10,7 +10,7 @@ from .node_values import linked_node, socket_value
 
 
 class NodeFactor(NamedTuple):
-    """Colour and strength of a lamp's Emission node, and what of the nodes could not be followed."""
+    """Color and strength of a lamp's Emission node, and what of the nodes could not be followed."""
 
     color: tuple[float, float, float]
     strength: float

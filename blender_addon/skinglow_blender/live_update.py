@@ -160,7 +160,7 @@ def _compute(
 
 
 def _texels(table: Table, skin: Skin, atlas: Atlas) -> np.ndarray:
-    """A skin's row of the image, its colours in the file's own space."""
+    """A skin's row of the image, its colors in the file's own space."""
     if atlas.layout is None:
         return plain_row(working_space.from_rec709(table.colors), atlas.pixels.shape[1])
     weight = table.weight if table.weight is not None else (1.0, 1.0, 1.0)

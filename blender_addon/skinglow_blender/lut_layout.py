@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a skin's row of the lookup image holds, texel by texel, for the nodes that read it and for what writes it.
 
-Plain: the colours by thickness, and nothing else. With surface weights, where the light is worked out at each pixel:
+Plain: the colors by thickness, and nothing else. With surface weights, where the light is worked out at each pixel:
 
     columns   entries each of M(d)'s three columns
-    constant  light that is the same everywhere; in its alpha the depth of a millimetre, scene units
+    constant  light that is the same everywhere; in its alpha the depth of a millimeter, scene units
     angular   four coefficients of the cubic in the cosine
     object    the object's one weight, which no node reads: lut() does
     world     nine coefficients of the polynomial in the normal, where there is one
@@ -82,7 +82,7 @@ def _step(count: int) -> int:
 
 
 def plain_row(colors: np.ndarray, width: int) -> np.ndarray:
-    """A row (width, 4) of colours (size, 3); the last goes on to the edge."""
+    """A row (width, 4) of colors (size, 3); the last goes on to the edge."""
     row = np.empty((width, 4), np.float32)
     row[:, 3] = 1.0
     row[: len(colors), :3] = colors
@@ -95,10 +95,10 @@ def surface_row(
 ) -> np.ndarray:
     """A row (layout.width, 4).
 
-    columns       (size, 3, 3): of each entry the three columns of M(d), each a colour
+    columns       (size, 3, 3): of each entry the three columns of M(d), each a color
     weight        (3,): the object's; what there is everywhere where there is no lighting
     lighting      a skinglow.SurfaceLighting that the layout holds; its light counts over pi, as leaving skin does
-    depth_per_mm  scene units for a millimetre of the thickness attribute
+    depth_per_mm  scene units for a millimeter of the thickness attribute
     """
     row = np.ones((layout.width, 4), np.float32)
     size = len(columns)

@@ -34,6 +34,6 @@ def socket_value(socket: bpy.types.NodeSocket) -> tuple[object, str]:
         if socket.type == "RGBA" and isinstance(value, float):
             return (value, value, value), ""
         if socket.type == "VALUE" and not isinstance(value, float):
-            return socket.default_value, f"its node '{node.name}' is a colour linked to {socket.name}"
+            return socket.default_value, f"its node '{node.name}' is a color linked to {socket.name}"
         return value, ""
     return socket.default_value, f"its node '{node.name}' is not followed; {socket.name}'s own value is used"

@@ -147,7 +147,7 @@ def _camera_arguments(depsgraph: bpy.types.Depsgraph) -> dict[str, Any]:
 
 
 def _surface_arguments(obj: bpy.types.Object, folder: Path) -> tuple[dict[str, Any], list[Path]]:
-    """The surface's base colour or picture; nothing where the surface gives back no light by itself."""
+    """The surface's base color or picture; nothing where the surface gives back no light by itself."""
     material = next((s.material for s in obj.material_slots if s.material and skin_node(s.material)), None)
     tree = blender_version.shader_tree(material) if material is not None else None
     principled = next((n for n in tree.nodes if n.bl_idname == "ShaderNodeBsdfPrincipled"), None) if tree else None

@@ -14,7 +14,7 @@ from .errors import core
 from .light_nodes import node_factor
 
 #: What a lamp's signature holds, in words.
-FIELDS = ("name", "type", "colour", "power", "position", "direction", "shape", "normalisation", "visible share")
+FIELDS = ("name", "type", "color", "power", "position", "direction", "shape", "normalization", "visible share")
 
 
 class Lamp(NamedTuple):
@@ -91,7 +91,7 @@ def _light_of(signature: tuple) -> Any:  # noqa: ANN401
             power *= sg.legacy_sun_power_factor(fields["sun_angle"])
     light = sg.Light(power=power, **fields)
     if not normalized:
-        light = sg.Light(power=power * sg.unnormalised_power_factor(light), **fields)
+        light = sg.Light(power=power * sg.unnormalized_power_factor(light), **fields)
     return light
 
 

@@ -11,9 +11,9 @@ from .scene_lights import Lamp, read_lamp
 from .scene_world import World, read_world
 from .skin_settings import TISSUE_SLIDERS, as_typed
 
-MM_PER_METRE = 1000.0
+MM_PER_METER = 1000.0
 #: Mesh properties, of when its thickness was measured: edge of the cube that its unit cube filled, scene units;
-#: millimetres in a scene unit; the cone that holds its normals, in its own space: axis, half angle in radians.
+#: millimeters in a scene unit; the cone that holds its normals, in its own space: axis, half angle in radians.
 MEASURED_SIZE = "skinglow_world_size"
 MEASURED_UNIT = "skinglow_unit_mm"
 MEASURED_CONE = "skinglow_normal_cone"
@@ -44,7 +44,7 @@ class SurfaceBounds(NamedTuple):
     least: tuple[float, float, float]
     most: tuple[float, float, float]
     facing: tuple[tuple[float, float, float], float]  #: cone of the far side's normals: axis, half angle
-    depth_per_mm: float  #: scene units for a millimetre of the thickness attribute
+    depth_per_mm: float  #: scene units for a millimeter of the thickness attribute
 
 
 class SceneReading(NamedTuple):
@@ -124,7 +124,7 @@ def _surface_bounds(obj: bpy.types.Object, matrix: Matrix, world_size: float) ->
         least=tuple(map(min, *corners)),
         most=tuple(map(max, *corners)),
         facing=facing,
-        depth_per_mm=grown(mesh, world_size) / mesh.get(MEASURED_UNIT, MM_PER_METRE),
+        depth_per_mm=grown(mesh, world_size) / mesh.get(MEASURED_UNIT, MM_PER_METER),
     )
 
 
@@ -138,7 +138,7 @@ def _base_key(settings: bpy.types.PropertyGroup) -> tuple:
     """(kind, entries, mm of the last, ...): all that the base lookup is made from."""
     size, max_thickness = settings.size, as_typed(settings.max_thickness_mm)
     if settings.mode == "PHYSICAL" or (settings.mode == "PAPER" and settings.base == "SKIN"):
-        kind = "TISSUE" if settings.mode == "PHYSICAL" else "TISSUE_GREY"
+        kind = "TISSUE" if settings.mode == "PHYSICAL" else "TISSUE_GRAY"
         return kind, size, max_thickness, tuple(as_typed(getattr(settings, name)) for name in TISSUE_SLIDERS)
     if settings.mode == "PAPER" and settings.base == "IMAGE":
         image = settings.base_image

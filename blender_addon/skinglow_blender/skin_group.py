@@ -50,7 +50,7 @@ class RowSockets:
 
 
 def build_plain(group: bpy.types.NodeTree) -> None:
-    """Makes a skin group's nodes anew for plain rows, colours by thickness; the image it showed stays in it."""
+    """Makes a skin group's nodes anew for plain rows, colors by thickness; the image it showed stays in it."""
     image = shown_image(group)
     clear(group)
     group.pop(LAYOUT_PROPERTY, None)
@@ -59,8 +59,8 @@ def build_plain(group: bpy.types.NodeTree) -> None:
     below = build.math("FLOOR", row.texel)
     share = build.math("FRACT", row.texel)
     colors = []
-    for name, to_centre in zip(NODE_NAMES, (0.5, 1.5), strict=True):
-        along = build.math("MULTIPLY", build.math("ADD", below, to_centre), row.texel_width)
+    for name, to_center in zip(NODE_NAMES, (0.5, 1.5), strict=True):
+        along = build.math("MULTIPLY", build.math("ADD", below, to_center), row.texel_width)
         lookup = new_lookup(build, build.combine(along, row.row), name)
         colors.append(lookup.outputs["Color"])
     step = build.vector("SUBTRACT", colors[1], colors[0])

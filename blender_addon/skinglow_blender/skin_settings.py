@@ -18,8 +18,8 @@ from bpy.props import (
 from .errors import core
 
 MODES = (
-    ("EXISTING", "Existing", "A fixed reddish lookup: the skin glows in the same colour, whatever the lights do"),
-    ("PAPER", "Paper", "Base lookup times blood weight plus the attenuated light colours (Kim et al., Eq. 1 to 3)"),
+    ("EXISTING", "Existing", "A fixed reddish lookup: the skin glows in the same color, whatever the lights do"),
+    ("PAPER", "Paper", "Base lookup times blood weight plus the attenuated light colors (Kim et al., Eq. 1 to 3)"),
     ("PHYSICAL", "Physical", "Layered skin, solved, lit by what each light brings to its far side in W/m^2"),
 )
 WEIGHTS = (
@@ -41,7 +41,7 @@ BASES = (
     ("SKIN", "Skin", "Brightness of the skin that the sliders describe"),
 )
 REFERENCES = (
-    ("BOUNDS", "Bounds", "Centre of the evaluated mesh's bounding box"),
+    ("BOUNDS", "Bounds", "Center of the evaluated mesh's bounding box"),
     ("ORIGIN", "Origin", "The object's origin"),
     ("POINT", "Point", "A point of the world that you give"),
 )
@@ -144,7 +144,7 @@ class SkinSettings(bpy.types.PropertyGroup):
         name="Image",
         type=bpy.types.Image,
         update=_changed,
-        description="Base lookup; its middle row is read, colour is reduced to brightness",
+        description="Base lookup; its middle row is read, color is reduced to brightness",
     )
     blood_weight: FloatVectorProperty(
         name="Blood",
@@ -186,7 +186,7 @@ class SkinSettings(bpy.types.PropertyGroup):
         max=0.1,
         precision=4,
         update=_slider_moved,
-        description="Whole blood of 150 g/L haemoglobin, volume fraction of the dermis",
+        description="Whole blood of 150 g/L hemoglobin, volume fraction of the dermis",
     )
     oxygen_saturation: FloatProperty(
         name="Oxygen",
@@ -194,7 +194,7 @@ class SkinSettings(bpy.types.PropertyGroup):
         min=0.0,
         max=1.0,
         update=_slider_moved,
-        description="Oxygenated part of the haemoglobin",
+        description="Oxygenated part of the hemoglobin",
     )
     epidermal_thickness_mm: FloatProperty(
         name="Epidermis",
@@ -265,7 +265,7 @@ class SkinSettings(bpy.types.PropertyGroup):
         max=1e9,
         precision=3,
         update=_changed,
-        description="Millimetres in one Blender unit; 0: as the scene's unit scale says (1000 by default)",
+        description="Millimeters in one Blender unit; 0: as the scene's unit scale says (1000 by default)",
     )
     rays: IntProperty(
         name="Rays",

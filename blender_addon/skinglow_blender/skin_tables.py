@@ -34,7 +34,7 @@ OBJECT_WEIGHT = WeightsChoice("OBJECT", None)
 
 
 class Table(NamedTuple):
-    """A skin's lookup: one linear Rec.709 colour per entry, and where a thickness finds its entry."""
+    """A skin's lookup: one linear Rec.709 color per entry, and where a thickness finds its entry."""
 
     colors: np.ndarray  #: (size, 3) float64, at the object's weight
     texel_mapping: tuple[float, float]  #: as skinglow.BaseLut.texel_mapping
@@ -159,7 +159,7 @@ def compute_table(skin: Skin, lamps: list[Lamp], world: World | None, room: Layo
             far = frozenset(lights[i].name for i in lighting.far_lights)
         # Light that leaves diffusely: the radiance is the flux per area over pi.
         weight = irradiance / math.pi
-    colors = sg.recolour(base, weight)
+    colors = sg.recolor(base, weight)
     if max(colors.max(), -colors.min()) > BRIGHTEST:
         raise SkinError(f"{skin.name}: the lookup is brighter than an image can hold; turn the lights down")
     return Table(colors, base.texel_mapping, tuple(float(w) for w in weight), base.matrices, choice, lighting, far)
@@ -213,4 +213,4 @@ def _computed_base(key: tuple) -> Any:  # noqa: ANN401
     base = sg.base_lut(tissue, size, max_thickness_mm)
     if kind == "TISSUE":
         return base
-    return sg.BaseLut(brightness(sg.recolour(base, (1.0, 1.0, 1.0))), max_thickness_mm)
+    return sg.BaseLut(brightness(sg.recolor(base, (1.0, 1.0, 1.0))), max_thickness_mm)

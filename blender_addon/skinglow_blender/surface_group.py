@@ -112,8 +112,8 @@ def _texel_group() -> bpy.types.NodeTree:
         {"Texel": "Float", "Texel width": "Float", "Row": "Float"},
         {"Color": "Color", "Alpha": "Float"},
     )
-    centre = build.math("ADD", entry.outputs["Texel"], 0.5)
-    along = build.math("MULTIPLY", centre, entry.outputs["Texel width"])
+    center = build.math("ADD", entry.outputs["Texel"], 0.5)
+    along = build.math("MULTIPLY", center, entry.outputs["Texel width"])
     lookup = new_lookup(build, build.combine(along, entry.outputs["Row"]), SURFACE_NODE)
     out = build.node("NodeGroupOutput")
     build.give(out.inputs["Color"], lookup.outputs["Color"])

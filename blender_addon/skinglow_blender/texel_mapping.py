@@ -7,7 +7,7 @@ from .scene_reading import Skin, grown
 
 
 def texels_per_mm(obj: bpy.types.Object, skin: Skin, texel_mapping: tuple[float, float]) -> float:
-    """Entries of the lookup for a millimetre of the attribute.
+    """Entries of the lookup for a millimeter of the attribute.
 
     texel_mapping  as skinglow.BaseLut.texel_mapping: for an image as wide as the table
     An object scaled since it was measured has grown thicker by as much.

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from .errors import SkinError, core
-from .scene_reading import MEASURED_CONE, MEASURED_SIZE, MEASURED_UNIT, MM_PER_METRE
+from .scene_reading import MEASURED_CONE, MEASURED_SIZE, MEASURED_UNIT, MM_PER_METER
 from .skin_group import THICKNESS_ATTRIBUTE
 from .skin_settings import as_typed
 
@@ -19,9 +19,9 @@ GIVEN = "given"
 
 
 def unit_mm(obj: bpy.types.Object, scene: bpy.types.Scene) -> float:
-    """Millimetres in one scene unit: the skin's own setting, or the scene's unit scale."""
+    """Millimeters in one scene unit: the skin's own setting, or the scene's unit scale."""
     own = as_typed(obj.skinglow.unit_mm)
-    return own if own > 0.0 else MM_PER_METRE * scene.unit_settings.scale_length
+    return own if own > 0.0 else MM_PER_METER * scene.unit_settings.scale_length
 
 
 class Geometry(NamedTuple):

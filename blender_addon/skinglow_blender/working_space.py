@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Between the colours of a file and the core's linear Rec.709.
+"""Between the colors of a file and the core's linear Rec.709.
 
 From 5.0 on a file may work in Rec.2020 or ACEScg; before that, under an OpenColorIO configuration of one's own. Lamp
-colours, sockets and images are in that space then, and a Non-Color image's pixels go into shaders as if they were.
+colors, sockets and images are in that space then, and a Non-Color image's pixels go into shaders as if they were.
 """
 
 from collections.abc import Sequence
@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 from mathutils import Color
 
-#: Roundings of OpenColorIO's own, where both spaces are the same; and of the colours that Blender converts.
+#: Roundings of OpenColorIO's own, where both spaces are the same; and of the colors that Blender converts.
 SAME = 1e-5
 ROUNDED = 1e-4
 
@@ -22,24 +22,24 @@ def working_space() -> tuple[float, float, float]:
 
 
 def lamp_color(color: Sequence[float]) -> tuple[tuple[float, float, float], str]:
-    """A lamp's colour in linear Rec.709, and what of it that space cannot hold, in words: it is left out."""
+    """A lamp's color in linear Rec.709, and what of it that space cannot hold, in words: it is left out."""
     matrix = _to_rec709(working_space())
     if matrix is None:
         return tuple(color), ""
     red, green, blue = (matrix @ color).tolist()
     outside = min(red, green, blue) < -ROUNDED * max(red, green, blue)
-    note = "its colour is more saturated than linear Rec.709 can hold, and is cut to that" if outside else ""
+    note = "its color is more saturated than linear Rec.709 can hold, and is cut to that" if outside else ""
     return (max(red, 0.0), max(green, 0.0), max(blue, 0.0)), note
 
 
 def to_rec709(colors: np.ndarray) -> np.ndarray:
-    """Colours of the file (..., 3) in linear Rec.709."""
+    """Colors of the file (..., 3) in linear Rec.709."""
     matrix = _to_rec709(working_space())
     return colors if matrix is None else (colors @ matrix.T).astype(colors.dtype)
 
 
 def from_rec709(colors: np.ndarray) -> np.ndarray:
-    """Colours (..., 3) of linear Rec.709 in the file's space."""
+    """Colors (..., 3) of linear Rec.709 in the file's space."""
     matrix = _from_rec709(working_space())
     return colors if matrix is None else (colors @ matrix.T).astype(colors.dtype)
 

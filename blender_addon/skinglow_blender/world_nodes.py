@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the nodes of a world send to a diffuse surface: Background nodes, mixed and added, each a colour or an image."""
+"""What the nodes of a world send to a diffuse surface: Background nodes, mixed and added, each a color or an image."""
 
 from typing import NamedTuple
 
@@ -77,7 +77,7 @@ def _follow_background(node: bpy.types.Node, share: float) -> Followed:
         return Followed((light,), note or mapping_note)
     color, color_note = socket_value(node.inputs["Color"])
     if color_note:
-        # The colour in the socket is not what is seen here: better dark, and say so, than any colour.
+        # The color in the socket is not what is seen here: better dark, and say so, than any color.
         return Followed((), f"its node '{source.name}' is not followed and lights nothing here")
     radiance = tuple(float(c) * strength for c in tuple(color)[:3])
     return Followed((Background(radiance, "", "", IDENTITY),), note)

@@ -1,6 +1,6 @@
-"""Skin that glows in the colour of your lights: recoloured lookup tables for thin, back-lit skin.
+"""Skin that glows in the color of your lights: recolored lookup tables for thin, back-lit skin.
 
-Data flows one way: lights -> light_weight -> recolour(base, B + L) -> a host's image.
+Data flows one way: lights -> light_weight -> recolor(base, B + L) -> a host's image.
 mm, W, nm, radians and linear Rec.709 everywhere; arrays are numpy float64; bad input raises ValueError.
 Importing this loads neither OpenImageIO nor Embree: Blender has libraries of its own.
 """
@@ -29,7 +29,7 @@ from skinglow._core import (
     base_lut,
     base_lut_by_plan,
     base_lut_report,
-    black_body_colour,
+    black_body_color,
     blackbody_spectrum,
     diffusion_transmittance,
     directional_transmittance,
@@ -49,7 +49,7 @@ from skinglow._core import (
     object_irradiance_error,
     povray_scene,
     read_light_rig,
-    recolour,
+    recolor,
     reference_lut,
     rgb_spectrum,
     six_gaussian_base,
@@ -57,17 +57,19 @@ from skinglow._core import (
     skin_angular_weight,
     skin_layers,
     slab,
-    spectral_colour,
+    spectral_color,
     surface_irradiance,
     tabulated_spectrum,
     transmission_matrix,
     transmittance,
-    unnormalised_power_factor,
+    unnormalized_power_factor,
 )
 from skinglow._occlusion import Occluders, VisibleShare
+from skinglow._renamed import __getattr__
 from skinglow._thickness import thickness
 
 __all__ = [
+    "__getattr__",
     "__version__",
     # Lights, and the paper's weight of them (Eq. 2 and 3)
     "Light",
@@ -77,7 +79,7 @@ __all__ = [
     # Tables (Eq. 1)
     "BaseLut",
     "PAPER_BLOOD_WEIGHT",
-    "recolour",
+    "recolor",
     "six_gaussian_base",
     "six_gaussian_lookup",
     # Slabs of turbid media
@@ -105,14 +107,14 @@ __all__ = [
     "blackbody_spectrum",
     "line_spectrum",
     "rgb_spectrum",
-    "spectral_colour",
+    "spectral_color",
     "tabulated_spectrum",
     "transmission_matrix",
     # Irradiance, and the power of lamps
     "LEGACY_AREA_POWER_FACTOR",
     "AngularWeight",
     "Environment",
-    "black_body_colour",
+    "black_body_color",
     "exposure_factor",
     "far_side",
     "far_side_irradiance",
@@ -121,7 +123,7 @@ __all__ = [
     "legacy_sun_power_factor",
     "skin_angular_weight",
     "surface_irradiance",
-    "unnormalised_power_factor",
+    "unnormalized_power_factor",
     # Which lights matter, and what each does
     "LightTree",
     "light_report",

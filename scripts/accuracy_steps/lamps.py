@@ -1,4 +1,4 @@
-"""How far the RGB routes are off for coloured lamps, against the lamp's whole spectrum sent through the skin."""
+"""How far the RGB routes are off for colored lamps, against the lamp's whole spectrum sent through the skin."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import skinglow as sg
 
 THICKNESS_MM = (1.0, 3.0, 6.0)
 
-# LEDs as Gaussian lines of usual centre and full width at half maximum; low-pressure sodium as its doublet at 589.3 nm.
+# LEDs as Gaussian lines of usual center and full width at half maximum; low-pressure sodium as its doublet at 589.3 nm.
 LAMPS = {
     "red LED (630 nm, FWHM 20 nm)": sg.line_spectrum(630.0, 20.0),
     "green LED (525 nm, FWHM 35 nm)": sg.line_spectrum(525.0, 35.0),
@@ -38,24 +38,24 @@ def _error(found: np.ndarray, exact: np.ndarray) -> float:
 def lamp_errors(tissue: sg.Tissue, streams: int = 32) -> list[LampError]:
     """Each lamp at each thickness.
 
-    `diagonal`: the colour of white light behind the skin times the lamp's colour, channel by channel, as a fixed lookup
-    does. `matrix`: M(d) times the lamp's colour. Both with the lamp's exact colour, which may lie outside the gamut;
-    `clipped_matrix`: M(d) with negative channels set to 0, as hosts hold lamp colours.
+    `diagonal`: the color of white light behind the skin times the lamp's color, channel by channel, as a fixed lookup
+    does. `matrix`: M(d) times the lamp's color. Both with the lamp's exact color, which may lie outside the gamut;
+    `clipped_matrix`: M(d) with negative channels set to 0, as hosts hold lamp colors.
     """
     through = sg.transmittance(tissue, THICKNESS_MM, sg.SAMPLE_WAVELENGTHS_NM, streams=streams)
     errors = []
     for name, spectrum in LAMPS.items():
-        colour = sg.spectral_colour(spectrum)
+        color = sg.spectral_color(spectrum)
         for thickness, filter_ in zip(THICKNESS_MM, through, strict=True):
-            exact = sg.spectral_colour(spectrum, filter_)
+            exact = sg.spectral_color(spectrum, filter_)
             matrix = sg.transmission_matrix(filter_)
             errors.append(
                 LampError(
                     name,
                     thickness,
-                    _error((matrix @ np.ones(3)) * colour, exact),
-                    _error(matrix @ colour, exact),
-                    _error(matrix @ np.maximum(colour, 0.0), exact),
+                    _error((matrix @ np.ones(3)) * color, exact),
+                    _error(matrix @ color, exact),
+                    _error(matrix @ np.maximum(color, 0.0), exact),
                 )
             )
     return errors

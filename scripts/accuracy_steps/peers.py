@@ -27,7 +27,7 @@ def deep_skin(tissue: sg.Tissue, wavelengths_nm: np.ndarray) -> tuple[np.ndarray
 
 
 def burley(thickness_mm: np.ndarray, reflectance: np.ndarray, decay_rate: np.ndarray) -> np.ndarray:
-    """The plane integral of Burley's normalised diffusion profile, (thickness, wavelength).
+    """The plane integral of Burley's normalized diffusion profile, (thickness, wavelength).
 
     R(r) = A (exp(-r/s) + exp(-r/3s)) / (8 pi s r) summed over the plane at distance d is
     A (exp(-d/s) + 3 exp(-d/3s)) / 4. A is the reflectance of deep skin and
@@ -40,5 +40,5 @@ def burley(thickness_mm: np.ndarray, reflectance: np.ndarray, decay_rate: np.nda
 
 
 def to_rgb(transmittance: np.ndarray) -> np.ndarray:
-    """Colour of white light (D65) behind filters given at the 81 sample wavelengths, (n, 3)."""
+    """Color of white light (D65) behind filters given at the 81 sample wavelengths, (n, 3)."""
     return np.array([sg.transmission_matrix(row) @ np.ones(3) for row in transmittance])

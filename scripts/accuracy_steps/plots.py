@@ -14,8 +14,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  after the choice of what it draws with
 from matplotlib.ticker import LogLocator, StrMethodFormatter  # noqa: E402
 
-# Colours that stay apart for colour-blind eyes (M. Okabe, K. Ito, "Color Universal Design", 2008), and marks besides.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000")
+# Colors that stay apart for color-blind eyes (M. Okabe, K. Ito, "Color Universal Design", 2008), and marks besides.
+COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000")
 MARKS = ("o", "s", "^", "D", "v")
 plt.rcParams.update({"font.size": 10, "axes.grid": True, "grid.alpha": 0.3, "legend.fontsize": 9})
 
@@ -34,9 +34,9 @@ def _save(figure: plt.Figure, path: Path) -> None:
 
 
 def _error_against_time(axes: plt.Axes, series: dict[str, list[Point]], labelled: bool) -> None:
-    for (name, points), colour, mark in zip(series.items(), COLOURS, MARKS, strict=False):
+    for (name, points), color, mark in zip(series.items(), COLORS, MARKS, strict=False):
         shown = [p for p in points if p.error > 1e-13]
-        axes.loglog([p.time_ms for p in shown], [p.error for p in shown], color=colour, marker=mark, label=name)
+        axes.loglog([p.time_ms for p in shown], [p.error for p in shown], color=color, marker=mark, label=name)
         if labelled:
             for p in shown:
                 axes.annotate(p.label, (p.time_ms, p.error), (5, 4), textcoords="offset points", fontsize=8)
@@ -65,7 +65,7 @@ def table(path: Path, nodes: list[Point], wavelengths: list[Point], whole: list[
     axes.loglog(
         [p.time_ms for p in whole],
         [p.error for p in whole],
-        color=COLOURS[2],
+        color=COLORS[2],
         marker=MARKS[2],
         label="base_lut, tolerance 1e-1 to 1e-5",
     )
@@ -80,9 +80,9 @@ def estimate(path: Path, points: list[Point]) -> None:
     """Measured against estimated error on random skins."""
     figure, axes = plt.subplots(figsize=(5.5, 4.5))
     estimated = np.array([p.estimate for p in points])
-    axes.loglog(estimated, [p.error for p in points], "o", color=COLOURS[0], markersize=4)
+    axes.loglog(estimated, [p.error for p in points], "o", color=COLORS[0], markersize=4)
     ends = np.array([estimated.min(), estimated.max()])
-    axes.loglog(ends, ends, color=COLOURS[4], label="measured = estimated")
+    axes.loglog(ends, ends, color=COLORS[4], label="measured = estimated")
     axes.set_xlabel("error that base_lut estimates")
     axes.set_ylabel("error measured")
     axes.set_title(f"{len(points)} random skins, tolerances and thicknesses")
@@ -95,9 +95,9 @@ def methods(path: Path, panels: list[RedCurves]) -> None:
     figure, axes = plt.subplots(1, len(panels), figsize=(10, 4.5), sharey=True)
     styles = ("-", "--", "-.", ":")
     for panel, ax in zip(panels, axes, strict=True):
-        for (name, curve), colour, style in zip(panel.curves.items(), COLOURS, styles, strict=False):
+        for (name, curve), color, style in zip(panel.curves.items(), COLORS, styles, strict=False):
             width = 2.5 if name == "solved" else 1.8
-            ax.semilogy(task.THICKNESS_MM, curve, style, color=colour, linewidth=width, label=name)
+            ax.semilogy(task.THICKNESS_MM, curve, style, color=color, linewidth=width, label=name)
         ax.set_xlabel("thickness of the skin, mm")
         ax.set_title(panel.tissue)
         ax.set_ylim(1e-5, 1.3)
@@ -107,17 +107,17 @@ def methods(path: Path, panels: list[RedCurves]) -> None:
 
 
 def presets(path: Path) -> None:
-    """How each preset shows white light and three coloured lamps, by thickness; each row exposed by itself."""
+    """How each preset shows white light and three colored lamps, by thickness; each row exposed by itself."""
     lamps = {"white": (1, 1, 1), "red": (1, 0, 0), "green": (0, 1, 0), "blue": (0, 0, 1)}
     figure, axes = plt.subplots(len(sg.TISSUE_PRESETS), len(lamps), figsize=(10, 6), sharex=True, squeeze=False)
     for row, (name, tissue) in enumerate(sg.TISSUE_PRESETS.items()):
         lut = sg.base_lut(tissue, 256, 6.0)
         for column, (lamp, light) in enumerate(lamps.items()):
             # Exposed so that light through 1.5 mm is mid-bright, else the thick end would be black in all.
-            colour = np.maximum(sg.recolour(lut, light), 0.0)
-            colour *= 0.6 / colour[64].max()
-            colour /= np.maximum(1.0, colour.max(axis=1, keepdims=True))  # too bright: as bright as can be
-            encoded = np.where(colour <= 0.0031308, 12.92 * colour, 1.055 * colour ** (1 / 2.4) - 0.055)
+            color = np.maximum(sg.recolor(lut, light), 0.0)
+            color *= 0.6 / color[64].max()
+            color /= np.maximum(1.0, color.max(axis=1, keepdims=True))  # too bright: as bright as can be
+            encoded = np.where(color <= 0.0031308, 12.92 * color, 1.055 * color ** (1 / 2.4) - 0.055)
             ax = axes[row, column]
             ax.imshow(encoded[None], extent=(0, 6, 0, 1), aspect="auto")
             ax.set_yticks([])

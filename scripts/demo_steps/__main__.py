@@ -20,14 +20,14 @@ from progress import DemoError, Progress
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="scripts/demo",
-        description="Lights a head from behind and shows, in Blender and POV-Ray, how it glows in the lamps' colour.",
+        description="Lights a head from behind and shows, in Blender and POV-Ray, how it glows in the lamps' color.",
         epilog="example: scripts/demo ../shared/data/heads/LeePerrySmith.glb --unit 50.35",
     )
     parser.add_argument("mesh", nargs="?", help="a GLB, OBJ or PLY file (default: MakeHuman's CC0 base mesh)")
     parser.add_argument("--mesh", dest="named_mesh", metavar="FILE|suzanne", help="the same; `suzanne` is Blender's")
-    parser.add_argument("--unit", type=float, metavar="MM", help="millimetres per unit of the file")
+    parser.add_argument("--unit", type=float, metavar="MM", help="millimeters per unit of the file")
     parser.add_argument("--rig", type=Path, metavar="FILE", help="lamps in place of Blender's rim.sl: .json or .sl")
-    parser.add_argument("--colour-map", type=Path, metavar="FILE", help="base colour of the skin, by the mesh's UVs")
+    parser.add_argument("--color-map", type=Path, metavar="FILE", help="base color of the skin, by the mesh's UVs")
     parser.add_argument("--normal-map", type=Path, metavar="FILE", help="tangent-space normals, by the mesh's UVs")
     parser.add_argument(
         "--blender",
@@ -53,7 +53,7 @@ def main() -> None:
     job = {
         **head.job(),
         "rigs": rigs,
-        "colour_map": str(options.colour_map.resolve()) if options.colour_map else None,
+        "color_map": str(options.color_map.resolve()) if options.color_map else None,
         "normal_map": str(options.normal_map.resolve()) if options.normal_map else None,
         "camera_azimuth_degrees": light_rigs.CAMERA_AZIMUTH_DEGREES,
         "package": str(blender_host.PACKAGE) if host.is_full_program else None,
@@ -62,7 +62,7 @@ def main() -> None:
         "out": str(out),
     }
     numbers = host.run("blender_job.py", job, progress)
-    numbers["head"] = {"name": head.name, "licence": head.licence, "unit_mm": head.unit_mm}
+    numbers["head"] = {"name": head.name, "license": head.license, "unit_mm": head.unit_mm}
     numbers["comparison"] = comparison.render_and_compare(out, options.size, progress)
     progress.say("drawing the figures")
     figures.draw_all(out, numbers)

@@ -43,11 +43,11 @@ class Studio:
         self.scene.render.resolution_x = self.scene.render.resolution_y = JOB["size"]
         self.scene.cycles.samples = JOB["samples"]
         self.head = stage.load_head(JOB)
-        stage.skin_surface(self.head, JOB["colour_map"], JOB["normal_map"])
+        stage.skin_surface(self.head, JOB["color_map"], JOB["normal_map"])
         azimuth = math.radians(JOB["camera_azimuth_degrees"])
         views = stage.views_of(self.head)
         self.cameras = {v: stage.aim_camera(self.scene, at, height, azimuth) for v, (at, height) in views.items()}
-        self.centre = stage.centre_of(self.head)
+        self.center = stage.center_of(self.head)
         self.tables: dict[str, np.ndarray] = {}
         self.lights: dict[str, Any] = {}
 
@@ -95,7 +95,7 @@ def main() -> dict[str, Any]:
     step = Steps(of=9)
     step("loading the head")
     studio = Studio()
-    stage.place_rig(studio.scene, JOB["rigs"]["table1"], studio.centre)
+    stage.place_rig(studio.scene, JOB["rigs"]["table1"], studio.center)
     step(f"measuring the thickness of the skin at {len(studio.head.data.vertices):,} points")
     state = sb.make_skin(studio.head, mode="paper", strength=STRENGTH)
     bpy.ops.wm.save_as_mainfile(filepath=str(OUT / "head.blend"))
@@ -115,12 +115,12 @@ def main() -> dict[str, Any]:
 
     for name in ("Light1", "Light3"):
         bpy.data.objects.remove(bpy.data.objects[name])
-    for colour, values in (("orange", ORANGE), ("blue", BLUE)):
-        step(f"Cycles: one lamp behind the ear, {colour}")
+    for color, values in (("orange", ORANGE), ("blue", BLUE)):
+        step(f"Cycles: one lamp behind the ear, {color}")
         bpy.data.objects["Light2"].data.color = values
-        studio.show(colour)
+        studio.show(color)
     step("Cycles: the rim lights")
-    stage.place_rig(studio.scene, JOB["rigs"]["rim"], studio.centre)
+    stage.place_rig(studio.scene, JOB["rigs"]["rim"], studio.center)
     studio.show("rim")
     step("Cycles: mode physical, a lamp behind the ear")
     studio.show_physical()

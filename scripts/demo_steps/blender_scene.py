@@ -1,4 +1,4 @@
-"""Runs inside Blender: a head at real size, a camera on its ear, lamps from a rig. Scene units are metres."""
+"""Runs inside Blender: a head at real size, a camera on its ear, lamps from a rig. Scene units are meters."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def empty_scene() -> bpy.types.Scene:
 
 
 def load_head(job: dict[str, Any]) -> bpy.types.Object:
-    """The mesh of the job as one object, in metres, UV seams welded, smooth, fine enough for a silhouette."""
+    """The mesh of the job as one object, in meters, UV seams welded, smooth, fine enough for a silhouette."""
     eyes: list[bpy.types.Object] = []
     if job["mesh"] == "suzanne":
         bpy.ops.mesh.primitive_monkey_add()
@@ -67,7 +67,7 @@ def load_head(job: dict[str, Any]) -> bpy.types.Object:
 
 
 def _at_real_size(thing: bpy.types.Object, unit_mm: float) -> None:
-    """Into the vertices with it: metres, and no transform left on the object."""
+    """Into the vertices with it: meters, and no transform left on the object."""
     thing.data.transform(Matrix.Scale(unit_mm / 1000.0, 4) @ thing.matrix_world)
     thing.matrix_world = Matrix()
 
@@ -130,8 +130,8 @@ def _subdivide(head: bpy.types.Object, levels: int) -> None:
     head.data = fine
 
 
-def skin_surface(head: bpy.types.Object, colour_map: str | None, normal_map: str | None) -> None:
-    """The surface that the glow is added to: the maps given, else one skin colour."""
+def skin_surface(head: bpy.types.Object, color_map: str | None, normal_map: str | None) -> None:
+    """The surface that the glow is added to: the maps given, else one skin color."""
     material = bpy.data.materials.new("face")
     if material.node_tree is None:
         material.use_nodes = True
@@ -139,9 +139,9 @@ def skin_surface(head: bpy.types.Object, colour_map: str | None, normal_map: str
     surface = nodes["Principled BSDF"]
     surface.inputs["Base Color"].default_value = (0.50, 0.27, 0.19, 1.0)
     surface.inputs["Roughness"].default_value = 0.5
-    if colour_map:
+    if color_map:
         picture = nodes.new("ShaderNodeTexImage")
-        picture.image = bpy.data.images.load(colour_map)
+        picture.image = bpy.data.images.load(color_map)
         links.new(picture.outputs["Color"], surface.inputs["Base Color"])
     if normal_map:
         picture = nodes.new("ShaderNodeTexImage")
@@ -172,8 +172,8 @@ def light_through_alone(head: bpy.types.Object) -> Iterator[None]:
             other.hide_render = False
 
 
-def centre_of(head: bpy.types.Object) -> Vector:
-    """Centre of the bounding box: the add-on's default reference point, and the origin of a rig."""
+def center_of(head: bpy.types.Object) -> Vector:
+    """Center of the bounding box: the add-on's default reference point, and the origin of a rig."""
     corners = [Vector(c) for c in head.bound_box]
     return sum(corners, Vector()) / 8.0
 
@@ -219,8 +219,8 @@ def lamp_behind_ear(scene: bpy.types.Scene, head: bpy.types.Object) -> bpy.types
     return lamp
 
 
-def place_rig(scene: bpy.types.Scene, rig: Rig, centre: Vector) -> list[bpy.types.Object]:
-    """The lamps of a rig file, its origin on `centre`; lamps of an earlier rig are removed."""
+def place_rig(scene: bpy.types.Scene, rig: Rig, center: Vector) -> list[bpy.types.Object]:
+    """The lamps of a rig file, its origin on `center`; lamps of an earlier rig are removed."""
     for old in [o for o in bpy.data.objects if o.type == "LIGHT"]:
         bpy.data.objects.remove(old)
     lamps = []
@@ -228,7 +228,7 @@ def place_rig(scene: bpy.types.Scene, rig: Rig, centre: Vector) -> list[bpy.type
         data = bpy.data.lights.new(entry["name"], entry["kind"])
         data.color, data.energy = entry["color"], entry["power"]
         lamp = bpy.data.objects.new(entry["name"], data)
-        lamp.location = centre + Vector(entry.get("position", (0, 0, 0)))
+        lamp.location = center + Vector(entry.get("position", (0, 0, 0)))
         lamp.rotation_euler = Vector(entry.get("direction", (0, 0, -1))).to_track_quat("-Z", "Y").to_euler()
         scene.collection.objects.link(lamp)
         lamps.append(lamp)

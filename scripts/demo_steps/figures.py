@@ -1,4 +1,4 @@
-"""The paper's figures, made again: lookup images, existing against proposed, a lamp changing colour."""
+"""The paper's figures, made again: lookup images, existing against proposed, a lamp changing color."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def draw_all(out: Path, numbers: dict[str, Any]) -> None:
         tables = {name: file[name] for name in file.files}
     lookup_images(out / "lookups.png", tables, numbers)
     pictures(out / "existing_and_proposed.png", out, [("table1", "Table 1's lamps")])
-    pictures(out / "colour_change.png", out, [("orange", "an orange lamp"), ("blue", "the lamp turned blue")])
+    pictures(out / "color_change.png", out, [("orange", "an orange lamp"), ("blue", "the lamp turned blue")])
     pictures(out / "rim.png", out, [("rim", "rim lights")])
     physical(out / "physical.png", out)
     hosts(out / "blender_and_povray.png", out, numbers)
@@ -63,8 +63,8 @@ def lookup_images(path: Path, tables: dict[str, np.ndarray], numbers: dict[str, 
         strip.set_yticks([])
         strip.set_title(title)
         thickness = np.linspace(0, limit, len(table))
-        for channel, colour in enumerate(("#ff6b5e", "#5fd36a", "#6aa2ff")):
-            curves.semilogy(thickness, np.maximum(table[:, channel], 1e-12), color=colour, label="RGB"[channel])
+        for channel, color in enumerate(("#ff6b5e", "#5fd36a", "#6aa2ff")):
+            curves.semilogy(thickness, np.maximum(table[:, channel], 1e-12), color=color, label="RGB"[channel])
         curves.set_xlim(0, SHOWN_MM)
         curves.set_ylim(1e-4, 1e2)
         curves.set_xlabel("thickness, mm")

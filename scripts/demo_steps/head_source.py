@@ -23,7 +23,7 @@ class Head:
     name: str
     mesh: str
     unit_mm: float
-    licence: str
+    license: str
     group: str | None = None
     eyes: tuple[str, ...] = ()  # groups of the file that are no skin and fill the sockets
     cut_below_m: float | None = None
@@ -41,7 +41,7 @@ class Head:
 def find(mesh: str | None, unit_mm: float | None, progress: Progress) -> Head:
     """The head asked for; raises DemoError, with the remedy, when there is none."""
     if unit_mm is not None and not 0 < unit_mm < float("inf"):
-        raise DemoError(f"--unit is {unit_mm}; allowed: millimetres per unit of the file, above 0")
+        raise DemoError(f"--unit is {unit_mm}; allowed: millimeters per unit of the file, above 0")
     if mesh == "suzanne":
         return Head("Suzanne", "suzanne", unit_mm or 100.0, "Blender's monkey, CC0")
     if mesh is not None:
@@ -54,9 +54,9 @@ def find(mesh: str | None, unit_mm: float | None, progress: Progress) -> Head:
         return Head(path.stem, str(path), unit_mm, "as its owner gives it")
     if not MAKEHUMAN.is_file():
         _fetch_makehuman(progress)
-    licence = "MakeHuman base mesh hm08, Data Collection AB and others, CC0 1.0"
-    progress.say(f"the head: {licence}")
-    return Head("MakeHuman", str(MAKEHUMAN), unit_mm or 100.0, licence, "body", MAKEHUMAN_EYES, NECK_M)
+    license = "MakeHuman base mesh hm08, Data Collection AB and others, CC0 1.0"
+    progress.say(f"the head: {license}")
+    return Head("MakeHuman", str(MAKEHUMAN), unit_mm or 100.0, license, "body", MAKEHUMAN_EYES, NECK_M)
 
 
 def _fetch_makehuman(progress: Progress) -> None:

@@ -20,19 +20,19 @@ def write(out: Path, numbers: dict[str, Any]) -> None:
     within = "within" if compared["rms"] <= compared["allowed_rms"] else "above"
     parts = [
         "<!doctype html><html lang=en><meta charset=utf-8><title>Skinglow</title>",
-        f"<style>{STYLE}</style><h1>Skin that glows in the colour of your lights</h1>",
+        f"<style>{STYLE}</style><h1>Skin that glows in the color of your lights</h1>",
         f"<p>{html.escape(head['name'])} at {head['unit_mm']:g} mm per unit, {numbers['vertices']:,} points; "
-        f"{html.escape(head['licence'])}. Rendered by Blender {html.escape(numbers['blender'])} (Cycles) and "
+        f"{html.escape(head['license'])}. Rendered by Blender {html.escape(numbers['blender'])} (Cycles) and "
         f"POV-Ray in {numbers['seconds']:.0f} s. Glow strength {numbers['strength']:g} in modes existing and paper, "
         "1 in mode physical.</p>",
         picture(
             "existing_and_proposed.png",
             "Existing against proposed",
-            "The same head and lamps. The existing lookup is a fixed red; the proposed one is recoloured.",
+            "The same head and lamps. The existing lookup is a fixed red; the proposed one is recolored.",
         ),
         picture(
-            "colour_change.png",
-            "A lamp changes colour",
+            "color_change.png",
+            "A lamp changes color",
             "The lamp behind the ear turns from orange to blue. The existing glow stays as it was.",
         ),
         picture(

@@ -32,7 +32,7 @@ def arguments() -> argparse.Namespace:
         description="The back-lit ear by every mode and by Cycles' random walk in the same medium: error and CPU time.",
     )
     parser.add_argument("--head", metavar="FILE", help="GLB, OBJ or PLY (default: the scan, else MakeHuman's)")
-    parser.add_argument("--unit", type=float, metavar="MM", help="millimetres per unit of the file")
+    parser.add_argument("--unit", type=float, metavar="MM", help="millimeters per unit of the file")
     parser.add_argument("--blender", metavar="PROGRAM", help="a Blender program or a Python with bpy")
     parser.add_argument("--size", type=int, default=160, metavar="PIXELS", help="width and height (default 160)")
     parser.add_argument("--samples", type=int, default=1024, help="of each of the two reference walks (default 1024)")
@@ -54,7 +54,7 @@ def find_head(options: argparse.Namespace, progress: Progress) -> head_source.He
         progress.say(f"no scan at {SCAN}: taking MakeHuman's head; the page's figures are of the scan (--head FILE)")
     head = head_source.find(mesh, options.unit, progress)
     if mesh is not None and Path(mesh).name == SCAN.name:
-        head.licence = CREDIT
+        head.license = CREDIT
     return head
 
 
@@ -87,7 +87,7 @@ def render(options: argparse.Namespace, out: Path, progress: Progress) -> dict[s
         "out": str(out),
     }
     numbers = host.run(str(STEPS / "ear_job.py"), job, progress)
-    numbers["head"] = f"{head.name} ({head.licence})"
+    numbers["head"] = f"{head.name} ({head.license})"
     numbers["samples"] = options.samples
     return numbers
 

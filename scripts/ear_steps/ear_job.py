@@ -39,8 +39,8 @@ def lookup_materials(ear: ear_scene.Ear) -> dict[str, Any]:
     base = SKIN1.base_lut(TABLE_SIZE, MAX_THICKNESS_MM)
     object_weight = sg.irradiance([ear.lamp], ear.reference_point)
     existing = sg.six_gaussian_lookup(TABLE_SIZE, MAX_THICKNESS_MM)
-    paper = sg.recolour(sg.six_gaussian_base(TABLE_SIZE, MAX_THICKNESS_MM), weight)
-    one_weight = sg.recolour(base, object_weight)
+    paper = sg.recolor(sg.six_gaussian_base(TABLE_SIZE, MAX_THICKNESS_MM), weight)
+    one_weight = sg.recolor(base, object_weight)
     columns = [base.matrices[:, :, j] for j in range(3)]
     matt = 1.0 / np.pi  # physical: irradiance in, radiance of a matt surface out
     return {

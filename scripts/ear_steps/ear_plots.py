@@ -12,8 +12,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  after the choice of what it draws with
 from matplotlib.ticker import LogLocator, PercentFormatter, StrMethodFormatter  # noqa: E402
 
-# Colours that stay apart for colour-blind eyes (M. Okabe, K. Ito, "Color Universal Design", 2008), and marks besides.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000")
+# Colors that stay apart for color-blind eyes (M. Okabe, K. Ito, "Color Universal Design", 2008), and marks besides.
+COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000")
 MARKS = ("o", "s", "^", "D", "v")
 TITLES = {
     "existing": "existing",
@@ -32,15 +32,15 @@ def error_against_time(path: Path, study: Study) -> None:
         [cost.seconds_to(e) for e in along],
         along,
         "-",
-        color=COLOURS[4],
+        color=COLORS[4],
         linewidth=1,
         label="its noise, falling as the root of its samples",
     )
-    axes.loglog(study.walk_seconds, [e.rms for e in study.walk_errors], MARKS[4], color=COLOURS[4], label="random walk")
-    for result, colour, mark in zip(study.methods, COLOURS, MARKS, strict=False):
-        axes.loglog(result.seconds, result.at_best.rms, mark, color=colour, markersize=9, label=METHODS[result.name])
+    axes.loglog(study.walk_seconds, [e.rms for e in study.walk_errors], MARKS[4], color=COLORS[4], label="random walk")
+    for result, color, mark in zip(study.methods, COLORS, MARKS, strict=False):
+        axes.loglog(result.seconds, result.at_best.rms, mark, color=color, markersize=9, label=METHODS[result.name])
         if result.name in ("object", "surface"):
-            axes.loglog(result.seconds, result.as_it_is.rms, mark, color=colour, markersize=9, fillstyle="none")
+            axes.loglog(result.seconds, result.as_it_is.rms, mark, color=color, markersize=9, fillstyle="none")
     # Plain numbers in place of powers of ten; drawing on log axes resets this, so it comes last.
     for axis, form in ((axes.xaxis, StrMethodFormatter("{x:g}")), (axes.yaxis, PercentFormatter(1.0, decimals=0))):
         axis.set_major_formatter(form)

@@ -20,7 +20,7 @@ from mathutils import Vector
 CAMERA_AZIMUTH_DEGREES = 25.0
 LAMP_AZIMUTH_DEGREES = 170.0  # behind the ear, a little to its side, so that the skull does not hide the ear from it
 LAMP_DISTANCE_M = 0.35
-LAMP_COLOUR = (1.0, 0.62, 0.35)  # warm
+LAMP_COLOR = (1.0, 0.62, 0.35)  # warm
 LAMP_POWER_W = 20.0
 # Far sides darker than this are mouth and sockets: the add-on's default.
 MIN_OPENNESS = 0.1
@@ -35,13 +35,13 @@ class Ear:
     scene: bpy.types.Scene
     head: bpy.types.Object
     lamp: sg.Light
-    reference_point: tuple[float, float, float]  # the add-on's default: centre of the bounding box
+    reference_point: tuple[float, float, float]  # the add-on's default: center of the bounding box
     cpu_seconds: dict[str, float]  # what the mesh costs once, and a change of lamps
 
 
 @dataclass
 class _Skin:
-    """Places (n, 3), metres; normals (n, 3); triangles (m, 3); thickness (n,), mm, once it is measured."""
+    """Places (n, 3), meters; normals (n, 3); triangles (m, 3); thickness (n,), mm, once it is measured."""
 
     places: np.ndarray
     normals: np.ndarray
@@ -49,10 +49,10 @@ class _Skin:
     thickness: np.ndarray
 
     def measured(self, min_openness: float) -> np.ndarray:
-        return sg.thickness(self.places, self.triangles, unit_mm=shading.MM_PER_METRE, min_openness=min_openness)
+        return sg.thickness(self.places, self.triangles, unit_mm=shading.MM_PER_METER, min_openness=min_openness)
 
     def far_side(self, lamp: sg.Light, thickness: np.ndarray) -> np.ndarray:
-        return sg.far_side_irradiance([lamp], self.places, self.normals, thickness / shading.MM_PER_METRE)
+        return sg.far_side_irradiance([lamp], self.places, self.normals, thickness / shading.MM_PER_METER)
 
 
 def build(job: dict[str, Any]) -> Ear:
@@ -65,22 +65,22 @@ def build(job: dict[str, Any]) -> Ear:
     skin = _read(head.data)
     skin.thickness, cpu["thickness"] = shading.timed(lambda: skin.measured(MIN_OPENNESS))
     open_thickness = skin.measured(0.0)
-    centre, radius = _find_ear(skin, np.array(stage.views_of(head)["_ear"][0]))
-    camera = stage.aim_camera(scene, Vector(centre), 2.2 * radius, math.radians(CAMERA_AZIMUTH_DEGREES))
-    where = _place_lamp(scene, Vector(centre))
-    lamp = sg.Light("POINT", LAMP_COLOUR, where, power=LAMP_POWER_W, name="lamp")
+    center, radius = _find_ear(skin, np.array(stage.views_of(head)["_ear"][0]))
+    camera = stage.aim_camera(scene, Vector(center), 2.2 * radius, math.radians(CAMERA_AZIMUTH_DEGREES))
+    where = _place_lamp(scene, Vector(center))
+    lamp = sg.Light("POINT", LAMP_COLOR, where, power=LAMP_POWER_W, name="lamp")
 
     far_side, cpu["far_side"] = shading.timed(lambda: skin.far_side(lamp, skin.thickness))
     back_lit = _cosine(skin, where) < 0.0
-    inside = np.linalg.norm(skin.places - centre, axis=1) < radius
-    # A colour must not be negative, and a cosine is.
+    inside = np.linalg.norm(skin.places - center, axis=1) < radius
+    # A color must not be negative, and a cosine is.
     facts = [skin.thickness, np.maximum(_cosine(skin, camera.location), 0.0), back_lit & inside]
     _store(head.data, shading.THICKNESS, skin.thickness)
     _store(head.data, THICKNESS_OPEN, open_thickness)
-    _store_colour(head.data, FACTS, np.column_stack(facts))
-    _store_colour(head.data, FAR_SIDE, far_side)
-    _store_colour(head.data, FAR_SIDE_OPEN, skin.far_side(lamp, open_thickness))
-    return Ear(scene, head, lamp, tuple(stage.centre_of(head)), cpu)
+    _store_color(head.data, FACTS, np.column_stack(facts))
+    _store_color(head.data, FAR_SIDE, far_side)
+    _store_color(head.data, FAR_SIDE_OPEN, skin.far_side(lamp, open_thickness))
+    return Ear(scene, head, lamp, tuple(stage.center_of(head)), cpu)
 
 
 def _read(mesh: bpy.types.Mesh) -> _Skin:
@@ -95,19 +95,19 @@ def _read(mesh: bpy.types.Mesh) -> _Skin:
 
 
 def _find_ear(skin: _Skin, outermost: np.ndarray) -> tuple[np.ndarray, float]:
-    """A ball, centre and radius in metres, around the thin skin near the head's outermost point."""
+    """A ball, center and radius in meters, around the thin skin near the head's outermost point."""
     near = np.linalg.norm(skin.places - outermost, axis=1) < NEAR_M
     thin = skin.places[near & (skin.thickness < THIN_MM)]
     if not len(thin):
         raise SystemExit(f"no skin under {THIN_MM:g} mm within {NEAR_M:g} m of the head's side; is the unit right?")
-    centre = 0.5 * (thin.min(axis=0) + thin.max(axis=0))
-    return centre, float(np.linalg.norm(thin - centre, axis=1).max())
+    center = 0.5 * (thin.min(axis=0) + thin.max(axis=0))
+    return center, float(np.linalg.norm(thin - center, axis=1).max())
 
 
 def _place_lamp(scene: bpy.types.Scene, ear: Vector) -> tuple[float, float, float]:
     azimuth = math.radians(LAMP_AZIMUTH_DEGREES)
     data = bpy.data.lights.new("lamp", "POINT")
-    data.color, data.energy, data.shadow_soft_size = LAMP_COLOUR, LAMP_POWER_W, 0.0
+    data.color, data.energy, data.shadow_soft_size = LAMP_COLOR, LAMP_POWER_W, 0.0
     lamp = bpy.data.objects.new("lamp", data)
     lamp.location = ear + LAMP_DISTANCE_M * Vector((math.sin(azimuth), -math.cos(azimuth), 0.0))
     scene.collection.objects.link(lamp)
@@ -123,6 +123,6 @@ def _store(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
     mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values.astype(np.float32))
 
 
-def _store_colour(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
+def _store_color(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
     attribute = mesh.attributes.new(name, "FLOAT_COLOR", "POINT")
     attribute.data.foreach_set("color", np.column_stack([values, np.ones(len(values))]).astype(np.float32).ravel())

@@ -44,21 +44,21 @@ class Medium:
         return sg.BaseLut(self.transmittance(thickness)[:, :, None] * np.eye(3), max_thickness_mm)
 
     @property
-    def walk_colour(self) -> np.ndarray:
-        """The colour, (3,), from which Cycles' random walk computes this medium's single scattering albedo."""
-        colour = np.linspace(0.0, 1.0, 200001)
-        return np.interp(self.single_scattering_albedo, cycles_single_scattering_albedo(colour), colour)
+    def walk_color(self) -> np.ndarray:
+        """The color, (3,), from which Cycles' random walk computes this medium's single scattering albedo."""
+        color = np.linspace(0.0, 1.0, 200001)
+        return np.interp(self.single_scattering_albedo, cycles_single_scattering_albedo(color), color)
 
 
-def cycles_single_scattering_albedo(colour: np.ndarray) -> np.ndarray:
-    """What Cycles 4.5 takes for the scattering of flesh of that colour, without anisotropy (g = 0).
+def cycles_single_scattering_albedo(color: np.ndarray) -> np.ndarray:
+    """What Cycles 4.5 takes for the scattering of flesh of that color, without anisotropy (g = 0).
 
-    A blend of two curves, by the fourth root of the colour; from
+    A blend of two curves, by the fourth root of the color; from
     intern/cycles/kernel/integrator/subsurface_random_walk.h, its coefficients at g = 0.
     """
-    dark = 1.8260523782 * np.arctan(4.98511194385 * colour + 0.127355959438 * colour) ** 1.09686102424
-    bright = 0.496310210422 * np.arctan(4.23190299701 * colour + 0.00310603949088 * colour) ** 2.40602999408
-    blend = colour**0.25
+    dark = 1.8260523782 * np.arctan(4.98511194385 * color + 0.127355959438 * color) ** 1.09686102424
+    bright = 0.496310210422 * np.arctan(4.23190299701 * color + 0.00310603949088 * color) ** 2.40602999408
+    blend = color**0.25
     return np.minimum((1.0 - blend) * dark + blend * bright, 0.999999)
 
 

@@ -14,7 +14,7 @@ import skinglow as sg
 from medium import Medium
 
 Result = TypeVar("Result")
-MM_PER_METRE = 1000.0
+MM_PER_METER = 1000.0
 THICKNESS = "skinglow_thickness"
 
 
@@ -85,8 +85,8 @@ def random_walk(medium: Medium) -> bpy.types.Material:
     node.falloff = "RANDOM_WALK"
     # Until 5.1 Cycles divides the radius by 4 pi; 5.2 takes it as the mean free path and keeps the old way by a name.
     legacy = "RANDOM_WALK_LEGACY" not in node.bl_rna.properties["falloff"].enum_items
-    radius_m = medium.mean_free_path_mm / MM_PER_METRE * (4.0 * np.pi if legacy else 1.0)
-    node.inputs["Color"].default_value = (*medium.walk_colour, 1.0)
+    radius_m = medium.mean_free_path_mm / MM_PER_METER * (4.0 * np.pi if legacy else 1.0)
+    node.inputs["Color"].default_value = (*medium.walk_color, 1.0)
     node.inputs["Radius"].default_value = radius_m
     node.inputs["Scale"].default_value = 1.0
     node.inputs["IOR"].default_value = 1.0
@@ -103,7 +103,7 @@ def _attribute(tree: bpy.types.NodeTree, name: str) -> bpy.types.Node:
 
 
 def shown_attribute(name: str) -> bpy.types.Material:
-    """A colour attribute as it is."""
+    """A color attribute as it is."""
     material, tree, surface = _empty(name)
     emission = tree.nodes.new("ShaderNodeEmission")
     tree.links.new(_attribute(tree, name).outputs["Color"], emission.inputs["Color"])

@@ -29,7 +29,7 @@ def compare(medium: Medium, size: int, samples: int, folder: Path) -> list[dict[
     shading.linear_render(scene, size)
     bpy.ops.mesh.primitive_cube_add(size=1.0)
     slab = bpy.context.object
-    slab.scale = (WIDE_M, THICKNESS_MM / shading.MM_PER_METRE, WIDE_M)
+    slab.scale = (WIDE_M, THICKNESS_MM / shading.MM_PER_METER, WIDE_M)
     shading.wear(slab, shading.random_walk(medium))
     sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
     sun.data.angle, sun.data.energy = 0.0, 1.0

@@ -23,7 +23,7 @@ FRAMES = 3
 TURN_DEGREES = 30.0  # to each side
 #: Tables are dark at the thickness of these ears, and shaders that use them scale them up by hand.
 STRENGTH = 60.0
-#: Collection, lamp, linear colour, W, and place in metres about the middle of a head that faces -Y.
+#: Collection, lamp, linear color, W, and place in meters about the middle of a head that faces -Y.
 LAMPS = (
     ("sunset", "low sun", (1.0, 0.60, 0.25), 12.0, (0.30, 0.35, 0.05)),
     ("sunset", "sky", (0.25, 0.40, 1.0), 8.0, (-0.50, -0.60, 0.50)),
@@ -38,7 +38,7 @@ def main(blend: Path) -> None:
     scene.frame_start, scene.frame_end = 1, FRAMES
     head = stage.load_head({"mesh": "suzanne", "unit_mm": 100.0, "group": None, "eyes": (), "cut_below_m": None})
     stage.skin_surface(head, None, None)
-    middle = stage.centre_of(head)
+    middle = stage.center_of(head)
     stage.aim_camera(scene, middle, 0.29, 0.0)
     for collection, name, color, power, place in LAMPS:
         lamp(scene, collection, name, color, power, [a + b for a, b in zip(middle, place, strict=True)])

@@ -13,7 +13,7 @@ gather_headers() {
     ln -s /usr/include/x86_64-linux-gnu "$portable/headers/debian/x86_64-linux-gnu"
 }
 
-# The licences of what is compiled in; all ask to be passed on with it.
+# The licenses of what is compiled in; all ask to be passed on with it.
 gather_licenses() {
     rm -rf "$portable/licenses"
     mkdir -p "$portable/licenses"

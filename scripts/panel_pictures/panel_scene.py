@@ -3,7 +3,7 @@
 import bpy
 from mathutils import Vector
 
-#: Name, kind, colour, power in W, place; scene units of 25 mm, about the middle of the mesh.
+#: Name, kind, color, power in W, place; scene units of 25 mm, about the middle of the mesh.
 LAMPS = (
     ("Key behind", "AREA", (1.0, 0.92, 0.8), 60.0, (0.6, 2.2, 1.0)),
     ("Rim red", "POINT", (1.0, 0.12, 0.06), 90.0, (-1.8, 1.4, 0.6)),

@@ -7,7 +7,7 @@ Run in a Blender whose Python finds skinglow:
 
 For 1 and 16 lamps and 1 and 8 skins, 300 changes each: medians in microseconds of
     reading   the walk through the depsgraph and the signatures
-    core      weights and recoloured tables
+    core      weights and recolored tables
     pixels    rows into the image, the image into the node
     whole     all of update(), which is what a handler does; Blender's own evaluation and redraw come on top
     idle      update() where nothing changed
@@ -131,7 +131,7 @@ def main() -> None:
     handlers.unregister()
     assert skin_tables.compute_table is live_update.compute_table
     results = []
-    print(f"Blender {bpy.app.version_string}: microseconds, medians of {CHANGES} changes of a lamp's colour")
+    print(f"Blender {bpy.app.version_string}: microseconds, medians of {CHANGES} changes of a lamp's color")
     print(f"{'lamps':>6} {'skins':>6} {'reading':>9} {'core':>9} {'pixels':>9} {'whole':>9} {'idle':>9}")
     for lamps in (1, 16):
         for skins in (1, 8):

@@ -1,4 +1,4 @@
-"""Irradiance per vertex by the core, against vectorised numpy; culling against all lamps; growth.
+"""Irradiance per vertex by the core, against vectorized numpy; culling against all lamps; growth.
 
 Run: python tests/benchmarks/irradiance_against_numpy.py     Prints medians and ratios of one run, pair by pair.
 The numpy way leaves out what is hard to write without branches, the cut of an area lamp at a face's horizon, so
@@ -20,7 +20,7 @@ def unit(v):
 
 
 def sphere(count, radius=0.1):
-    """A ball of about that many vertices, ring by ring, as meshes mostly have their neighbours near each other."""
+    """A ball of about that many vertices, ring by ring, as meshes mostly have their neighbors near each other."""
     rings = max(2, round((count / 2) ** 0.5))
     theta = np.pi * (np.arange(rings) + 0.5) / rings
     phi = np.pi * np.arange(2 * rings) / rings

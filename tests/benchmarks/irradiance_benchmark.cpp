@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "light/light_culling.h"
-#include "light/surface_irradiance.h"
+#include "rig/light_culling.h"
+#include "rig/surface_irradiance.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 """Three ways for a material to get the light on the far side: one weight for the object, nodes that work it out at each
-pixel (what the add-on does with weights 'Surface'), and a colour attribute that the core fills at each vertex.
+pixel (what the add-on does with weights 'Surface'), and a color attribute that the core fills at each vertex.
 
 Run in a Blender whose Python finds skinglow:
 

@@ -7,9 +7,10 @@
 #include <optional>
 
 #include "../core/mesh_shapes.h"
+#include "geometry/vector.h"
+#include "geometry/welded_mesh.h"
 #include "rays/cone_sampling.h"
 #include "rays/thickness.h"
-#include "rays/welded_mesh.h"
 
 /// What a thickness costs, against the least one could do (a single ray along the axis, by the same Embree)
 /// and against the same rays without an acceleration structure. The shell is about as fine as a head (13,000
@@ -87,10 +88,10 @@ void small_brute_force(benchmark::State& state) {
         const skinglow::WeldedMesh welded(mesh.vertices, mesh.triangles);
         const auto directions = skinglow::cone_directions(64, skinglow::ThicknessOptions{}.cone_half_angle);
         for (std::uint32_t i = 0; i < welded.positions().size(); ++i) {
-            const auto frame = skinglow::Frame::around(-welded.vertex_normal(i));
+            const glm::dmat3 frame = skinglow::detail::frame_around(-welded.vertex_normal(i));
             for (const glm::dvec3& local : directions) {
                 double nearest = std::numeric_limits<double>::infinity();
-                const glm::dvec3 direction = frame.to_world(local);
+                const glm::dvec3 direction = frame * local;
                 for (const auto& t : welded.triangles()) {
                     nearest = std::min(nearest,
                                        meet(welded, t, welded.positions()[i], direction).value_or(nearest));

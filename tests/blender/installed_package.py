@@ -89,7 +89,7 @@ def follow_a_lamp(sg, sb):
         found["shown"].append(sb.lut(obj, bpy.context.evaluated_depsgraph_get())[0].tolist())
         pairs = zip((1.8, 0.5, 0.4), lamp.data.color, strict=True)
         weight = [blood + color / (1.0 + x * x) for blood, color in pairs]
-        found["expected"].append(sg.recolour(sg.six_gaussian_base(256, 24.0), weight)[0].tolist())
+        found["expected"].append(sg.recolor(sg.six_gaussian_base(256, 24.0), weight)[0].tolist())
     return found
 
 

@@ -69,7 +69,7 @@ def test_wheel_runs_on_any_linux(python: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("python", ["cp311", "cp313"])
-def test_wheel_brings_its_licences_and_nothing_else(python: str) -> None:
+def test_wheel_brings_its_licenses_and_nothing_else(python: str) -> None:
     (wheel,) = packages(f"skinglow-*-{python}-{python}-*.whl")
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()

@@ -18,9 +18,9 @@ inline const std::array<glm::dvec3, 3> weight = {
     glm::dvec3(0.034072305170468886, 0.14537516872733391, 0.5792291878979711),
     glm::dvec3(0.49358172816165746)};
 inline const glm::dvec3 total = {1.0673248156733326, 0.8759887699172859, 1.2188394806931313};
-/// B + L, and a grey entry of 0.25 recoloured by it.
+/// B + L, and a gray entry of 0.25 recolored by it.
 inline const glm::dvec3 blood_and_light = {2.8673248156733324, 1.375988769917286, 1.6188394806931314};
-inline const glm::dvec3 quarter_grey = {0.7168312039183331, 0.3439971924793215, 0.40470987017328286};
+inline const glm::dvec3 quarter_gray = {0.7168312039183331, 0.3439971924793215, 0.40470987017328286};
 
 /// The three lamps, each at its distance from the origin in a direction of its own.
 inline std::vector<skinglow::Light> lights() {

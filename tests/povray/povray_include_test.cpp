@@ -1,4 +1,4 @@
-#include "io/povray_include.h"
+#include "povray/povray_include.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "io/sdl_text.h"
+#include "povray/sdl_text.h"
 #include "skin/fixed_lookup.h"
 #include "table1.h"
 
@@ -166,12 +166,12 @@ TEST(SdlText, NumbersReadBackAsTheSame) {
     EXPECT_EQ(text.take(), "0.30000000000000004 0 1e-310 <1,2.5,-3>");
 }
 
-TEST(GreyEntries, OfGreyBasesAlone) {
-    EXPECT_EQ(grey_entries(BaseLut::from_grey(std::vector<double>{1, 0.5}, 1)),
+TEST(GrayEntries, OfGrayBasesAlone) {
+    EXPECT_EQ(gray_entries(BaseLut::from_gray(std::vector<double>{1, 0.5}, 1)),
               (std::vector<double>{1, 0.5}));
     glm::dmat3 tinted(1.0);
     tinted[1][0] = 0.1;
-    EXPECT_THROW(grey_entries(BaseLut({tinted}, 1)), std::invalid_argument);
+    EXPECT_THROW(gray_entries(BaseLut({tinted}, 1)), std::invalid_argument);
 }
 
 }  // namespace

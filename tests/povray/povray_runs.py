@@ -75,11 +75,11 @@ def sdl_array(name: str, items: list[str]) -> str:
 
 
 def sdl_lights(lights: list) -> str:
-    """skinglow lights as the arrays that the macros take: Kinds, Colours, Positions, Powers."""
+    """skinglow lights as the arrays that the macros take: Kinds, Colors, Positions, Powers."""
     powers = [repr(float(light.power if light.visible else 0)) for light in lights]
     return (
         sdl_array("Kinds", [f'"{light.kind}"' for light in lights])
-        + sdl_array("Colours", [sdl_vector(light.color) for light in lights])
+        + sdl_array("Colors", [sdl_vector(light.color) for light in lights])
         + sdl_array("Positions", [sdl_vector(light.position) for light in lights])
         + sdl_array("Powers", powers)
     )

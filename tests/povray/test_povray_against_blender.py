@@ -33,7 +33,7 @@ def blender(host: Host, folder: Path, job: dict) -> np.ndarray:
 def both(tmp_path: Path, host: Host, **job) -> tuple[np.ndarray, np.ndarray]:
     """The picture by Blender and by POV-Ray."""
     weight = np.array([1.8, 0.5, 0.4]) + sg.light_weight(LAMPS, (0, 0, 0))
-    job = dict(table=sg.recolour(BASE, weight).tolist(), **job)
+    job = dict(table=sg.recolor(BASE, weight).tolist(), **job)
     by_blender = blender(host, tmp_path, job)
     with np.load(tmp_path / "scene.npz") as scene:
         files = sg.povray_scene(
@@ -50,7 +50,7 @@ def both(tmp_path: Path, host: Host, **job) -> tuple[np.ndarray, np.ndarray]:
 
 
 def away_from_edges(picture: np.ndarray) -> np.ndarray:
-    """Pixels whose eight neighbours all show skin."""
+    """Pixels whose eight neighbors all show skin."""
     covered = np.pad(picture.sum(axis=2) > 0, 1)
     height, width = picture.shape[:2]
     inside = np.ones((height, width), bool)

@@ -28,7 +28,7 @@ BLOOD = ("1.8", "0.5", "0.4")
 
 
 def light_weight(count: int = 3, point: str = ORIGIN, coefficients: str = DEFAULT) -> str:
-    arrays = "Kinds, Colours, Positions, Powers" if count else "0, 0, 0, 0"
+    arrays = "Kinds, Colors, Positions, Powers" if count else "0, 0, 0, 0"
     return f"Skinglow_Light_Weight({count}, {arrays}, {point}, {coefficients})"
 
 
@@ -48,15 +48,15 @@ def exact_table_1() -> list[Fraction]:
 def random_lights(count: int, decades: float, seed: int = 7) -> list:
     random = np.random.default_rng(seed)
     kinds = random.choice(["POINT", "SUN", "SPOT", "AREA"], count)
-    colours = random.random((count, 3)) * 10.0 ** random.uniform(-decades / 2, decades / 2, (count, 1))
+    colors = random.random((count, 3)) * 10.0 ** random.uniform(-decades / 2, decades / 2, (count, 1))
     places = random.normal(size=(count, 3)) * 3
     powers = random.choice([0.0, 1e-12, 5.0, -1.0], count)
-    return [sg.Light(str(k), c, p, power=w) for k, c, p, w in zip(kinds, colours, places, powers, strict=True)]
+    return [sg.Light(str(k), c, p, power=w) for k, c, p, w in zip(kinds, colors, places, powers, strict=True)]
 
 
 def test_table_1(tmp_path):
     declared = sdl_lights(table_1()) + sdl_array("Base", ["1", "0.25"])
-    declared += f"#declare T = Skinglow_Recolour(Base, Skinglow_Blood, {light_weight()})\n"
+    declared += f"#declare T = Skinglow_Recolor(Base, Skinglow_Blood, {light_weight()})\n"
     weight, first, quarter = vectors(tmp_path, [light_weight(), "T[0]", "T[1]"], declared)
     for i, light in enumerate(exact_table_1()):
         assert weight[i] == pytest.approx(float(light), rel=1e-12, abs=0)
@@ -105,9 +105,9 @@ def test_no_lights_and_lights_that_are_off(tmp_path):
 
 
 @pytest.mark.parametrize("place", [(0, 0, 0), (1e-30, 0, 0), (1e30, 1e30, 0), (3e-200, 4e-200, 0)])
-@pytest.mark.parametrize("colour", [(0, 0, 1e-30), (1e6, 1, 0)])
-def test_extreme_places_and_colours(tmp_path, place, colour):
-    lights = [sg.Light("POINT", colour, place)]
+@pytest.mark.parametrize("color", [(0, 0, 1e-30), (1e6, 1, 0)])
+def test_extreme_places_and_colors(tmp_path, place, color):
+    lights = [sg.Light("POINT", color, place)]
     for coefficients in ((1, 0, 1), (0, 0, 1e-3), (0, 1e190, 0)):
         expression = light_weight(1, coefficients=sdl_vector(coefficients))
         found = vectors(tmp_path, [expression], sdl_lights(lights))[0]
@@ -118,7 +118,7 @@ def test_extreme_places_and_colours(tmp_path, place, colour):
 def test_terms_of_mixed_lights_agree_with_the_core(tmp_path):
     lights = random_lights(24, decades=6)
     point, coefficients = (0.3, -2.0, 0.1), (0.5, 0.25, 2.0)
-    arguments = f"24, Kinds, Colours, Positions, Powers, {sdl_vector(point)}, {sdl_vector(coefficients)}"
+    arguments = f"24, Kinds, Colors, Positions, Powers, {sdl_vector(point)}, {sdl_vector(coefficients)}"
     declared = sdl_lights(lights) + f"#declare W = Skinglow_Light_Weights({arguments})\n"
     found = vectors(tmp_path, [f"W[{i}]" for i in range(24)], declared)
     expected = sg.light_weights(lights, point, coefficients)
@@ -136,13 +136,13 @@ def test_ten_thousand_lights_over_twelve_decades_in_any_order(tmp_path):
 
 
 @pytest.mark.parametrize("size", [1, 2, 256, 65_536])
-def test_recoloured_tables(tmp_path, size):
+def test_recolored_tables(tmp_path, size):
     declared = f"#declare B = Skinglow_Six_Gaussian_Base({size}, 12)\n"
-    declared += "#declare T = Skinglow_Recolour(B, Skinglow_Blood, <1.5, 1e6, 0>)\n"
+    declared += "#declare T = Skinglow_Recolor(B, Skinglow_Blood, <1.5, 1e6, 0>)\n"
     places = sorted({0, size // 3, size // 2, size - 1})
     base = np.array(numbers(tmp_path, [f"B[{i}]" for i in places], declared))
     found = vectors(tmp_path, [f"T[{i}]" for i in places], declared)
-    expected = sg.recolour(sg.BaseLut(base, 12), np.array([1.8, 0.5, 0.4]) + [1.5, 1e6, 0])
+    expected = sg.recolor(sg.BaseLut(base, 12), np.array([1.8, 0.5, 0.4]) + [1.5, 1e6, 0])
     np.testing.assert_allclose(found, expected, rtol=1e-12, atol=0)
     reference = sg.six_gaussian_base(size, 12).matrices[places, 0, 0]
     np.testing.assert_allclose(base, reference, rtol=1e-12, atol=1e-300)
@@ -160,7 +160,7 @@ LAMP = 'array[1] {"POINT"}', "array[1] {<1,1,1>}", "array[1] {<0,0,1>}", "array[
 
 
 def lamp(**changes: str) -> str:
-    names = ("kinds", "colours", "positions", "powers")
+    names = ("kinds", "colors", "positions", "powers")
     arrays = [changes.get(name, usual) for name, usual in zip(names, LAMP, strict=True)]
     declared = "".join(f"#declare {n} = {a}\n" for n, a in zip("ABCD", arrays, strict=True))
     rest = f"{changes.get('point', ORIGIN)}, {changes.get('coefficients', DEFAULT)}"
@@ -175,8 +175,8 @@ REFUSED = {
     "#declare R = Skinglow_Attenuation(1, <-1,0,1>);": r"coefficient k_c \(constant\) is -1",
     f"#declare R = Skinglow_Attenuation(1, <1,{NAN},1>);": r"coefficient k_l \(linear\) is -?nan",
     "#declare R = Skinglow_Attenuation(1, <1,0,1e400>);": r"coefficient k_q \(quadratic\) is inf",
-    lamp(colours="array[1] {<1,-1e-20,1>}"): "green of colour of light 0 is -1.0*e-20",
-    lamp(colours=f"array[1] {{<1,1,{NAN}>}}"): "blue of colour of light 0 is -?nan",
+    lamp(colors="array[1] {<1,-1e-20,1>}"): "green of color of light 0 is -1.0*e-20",
+    lamp(colors=f"array[1] {{<1,1,{NAN}>}}"): "blue of color of light 0 is -?nan",
     lamp(positions="array[1] {<1e400,0,0>}"): r"x \(red\) of position of light 0 is inf",
     lamp(kinds='array[1] {"LASER"}'): 'kind of light 0 is "LASER"; allowed: POINT, SUN, SPOT or AREA',
     lamp(powers="array[1] {1e400}"): "power of light 0 is inf",
@@ -186,10 +186,10 @@ REFUSED = {
     lamp(count="0.5"): "number of lights is 5.0*e-1; allowed: a whole number",
     lamp(count="-1"): "number of lights is -1",
     lamp(positions="array[1] {<1.5e308,0,0>}", point="<-1.5e308,0,0>"): "distance of light 0 is inf",
-    "#declare B = array[2] {1, -1}\n#declare R = Skinglow_Recolour(B, <1,1,1>, <0,0,0>)": (
+    "#declare B = array[2] {1, -1}\n#declare R = Skinglow_Recolor(B, <1,1,1>, <0,0,0>)": (
         "entry 1 of the base lookup is -1"
     ),
-    "#declare B = array[1] {1}\n#declare R = Skinglow_Recolour(B, <1e400,1,1>, <0,0,0>)": (
+    "#declare B = array[1] {1}\n#declare R = Skinglow_Recolor(B, <1e400,1,1>, <0,0,0>)": (
         r"x \(red\) of blood weight is inf"
     ),
     "#declare R = Skinglow_Six_Gaussian(0, 12)": "table size is 0.*; allowed: a whole number of 1 to",

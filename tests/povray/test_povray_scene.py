@@ -37,16 +37,16 @@ def picture(folder, files, *arguments) -> np.ndarray:
 
 
 def along(table: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """The lookup at image coordinates: linear between the texels' centres, constant beyond."""
+    """The lookup at image coordinates: linear between the texels' centers, constant beyond."""
     places = np.clip(u * len(table) - 0.5, 0, len(table) - 1)
     return np.stack([np.interp(places, np.arange(len(table)), c) for c in table.T], axis=1)
 
 
 def paper_table(lights=LAMPS) -> np.ndarray:
-    return sg.recolour(BASE, np.array([1.8, 0.5, 0.4]) + sg.light_weight(lights, (0, 0, 0)))
+    return sg.recolor(BASE, np.array([1.8, 0.5, 0.4]) + sg.light_weight(lights, (0, 0, 0)))
 
 
-# What the square shows: u from the first texel's centre on the left to the last one's on the right.
+# What the square shows: u from the first texel's center on the left to the last one's on the right.
 U = (15 * (np.arange(64) + 0.5) / 64 + 0.5) / 16
 STEP_16_BIT = 2e-5  # of the picture's file, half a step and rounding
 
@@ -61,7 +61,7 @@ def test_macros_compute_the_table_of_the_core(tmp_path):
     np.testing.assert_allclose(found.astype(np.float32), paper_table().astype(np.float32), rtol=1e-7)
 
 
-def test_glow_by_macros_has_the_tables_colours(tmp_path):
+def test_glow_by_macros_has_the_tables_colors(tmp_path):
     row = picture(tmp_path, square(strength=0.9))
     np.testing.assert_allclose(row, 0.9 * along(paper_table(), U), atol=STEP_16_BIT)
 
@@ -175,7 +175,7 @@ def test_surface_picture_is_a_second_render(tmp_path):
     glow_alone = picture(tmp_path / "glow", square(lights=lit))
     np.testing.assert_allclose(glow, glow_alone, atol=STEP_16_BIT)
     u = (np.arange(64) + 0.5) / 64
-    inside = (u > 1 / 16) & (u < 15 / 16)  # beyond the outer centres a surface's picture repeats itself
+    inside = (u > 1 / 16) & (u < 15 / 16)  # beyond the outer centers a surface's picture repeats itself
     np.testing.assert_allclose(surface[inside], along(texels[0], u)[inside], rtol=2.0**-11, atol=1e-5)
     with pytest.raises(PovrayError, match="Skinglow_Part is not declared; allowed: 1"):
         run(tmp_path, "scene.ini")
@@ -230,7 +230,7 @@ REFUSED = [
     (dict(normals=np.zeros((3, 3))), "vertex_normals is 3 entries; allowed: 4"),
     (dict(base=None), "axis is not given; allowed: base, or size and max_thickness_mm"),
     (dict(size=0, max_thickness_mm=1), "size is 0"),
-    (dict(base=sg.BaseLut([np.diag([1.0, 2, 3])], 1)), "entry 0 is a matrix; allowed: a grey one"),
+    (dict(base=sg.BaseLut([np.diag([1.0, 2, 3])], 1)), "entry 0 is a matrix; allowed: a gray one"),
 ]
 
 

@@ -62,13 +62,13 @@ def test_weights_of_table_1():
     report = json.loads(skinglow("weights", DATA / "table1.json", "--json").stdout)
     rows = [((255, 112, 69), 0.92357), ((15, 64, 255), 0.85231), ((255, 255, 255), 1.01292)]
     total = [0.0, 0.0, 0.0]
-    for light, (colour, distance) in zip(report["lights"], rows, strict=True):
+    for light, (color, distance) in zip(report["lights"], rows, strict=True):
         attenuation = 1 / (1 + distance**2)
         assert math.isclose(light["distance"], distance, rel_tol=1e-14)
         assert math.isclose(light["attenuation"], attenuation, rel_tol=1e-14)
         for i in range(3):
-            assert math.isclose(light["weight"][i], colour[i] / 255 * attenuation, rel_tol=1e-14)
-            total[i] += colour[i] / 255 * attenuation
+            assert math.isclose(light["weight"][i], color[i] / 255 * attenuation, rel_tol=1e-14)
+            total[i] += color[i] / 255 * attenuation
     for i, blood in enumerate((1.8, 0.5, 0.4)):
         assert math.isclose(report["light_weight"][i], total[i], rel_tol=1e-12)
         assert math.isclose(report["weight"][i], total[i] + blood, rel_tol=1e-12)
@@ -139,9 +139,9 @@ def test_lut_paper_is_equation_1(tmp_path):
     skinglow("lut", "--mode", "existing", "--size", 9, "-o", tmp_path / "existing.csv")
     weight = json.loads(skinglow("weights", DATA / "table1.json", "--json").stdout)["weight"]
     rows = zip(read_table(tmp_path / "paper.csv"), read_table(tmp_path / "existing.csv"), strict=True)
-    for (_, *colour), (_, r, g, b) in rows:
-        grey = 0.2126 * r + 0.7152 * g + 0.0722 * b
-        assert colour == pytest.approx([grey * w for w in weight], rel=1e-12)
+    for (_, *color), (_, r, g, b) in rows:
+        gray = 0.2126 * r + 0.7152 * g + 0.0722 * b
+        assert color == pytest.approx([gray * w for w in weight], rel=1e-12)
 
 
 def test_lut_formats_agree_and_clamping_is_reported(tmp_path):
@@ -220,7 +220,7 @@ def test_povray_writes_a_scene(tmp_path):
 @pytest.mark.parametrize(
     ("text", "parts"),
     [
-        ('{"skinglow_rig": 1,\n"lights": [\n{"kind": "POINT", "colour": 1}]}', ["lights[0].colour (line 3)"]),
+        ('{"skinglow_rig": 1,\n"lights": [\n{"kind": "POINT", "color": 1}]}', ["lights[0].color (line 3)"]),
         ('{"skinglow_rig": 1,\n"lights": [\n{"kind": "POINT",\n"power": 1e999}]}', ["line 4", "overflow"]),
         ('{"skinglow_rig": 1,\n"lights": [', ["line 2", "not JSON"]),
         ("[1, 2]", ["line 1", "object"]),

@@ -57,9 +57,9 @@ def test_a_table_fitted_to_the_reference_is_its_mean_at_each_thickness():
     np.testing.assert_allclose(fitted, truth)
 
 
-def test_the_walks_colour_gives_the_mediums_albedo():
+def test_the_walks_color_gives_the_mediums_albedo():
     skin = medium.SKIN1
-    albedo = medium.cycles_single_scattering_albedo(skin.walk_colour)
+    albedo = medium.cycles_single_scattering_albedo(skin.walk_color)
     np.testing.assert_allclose(albedo, skin.single_scattering_albedo, atol=1e-6)
     np.testing.assert_allclose(albedo, [0.74 / 0.772, 0.88 / 1.05, 1.01 / 1.49], atol=1e-6)
 

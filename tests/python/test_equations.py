@@ -18,9 +18,9 @@ AWAY = [(1, 0, 0), (0, -0.6, 0.8), (0, 0, -1)]
 def table1_by_hand():
     """(3, 3) weights in exact fractions, rounded once."""
     rows = []
-    for colour, distance in TABLE1:
+    for color, distance in TABLE1:
         attenuation = 1 / (1 + Fraction(distance) ** 2)
-        rows.append([float(Fraction(c, 255) * attenuation) for c in colour])
+        rows.append([float(Fraction(c, 255) * attenuation) for c in color])
     return np.array(rows)
 
 
@@ -28,11 +28,11 @@ def table1_lights():
     return [
         sg.Light(
             kind="POINT",
-            color=np.array(colour) / 255,
+            color=np.array(color) / 255,
             position=np.array(away) * float(distance),
             name=f"Light{k}",
         )
-        for k, ((colour, distance), away) in enumerate(zip(TABLE1, AWAY, strict=True), 1)
+        for k, ((color, distance), away) in enumerate(zip(TABLE1, AWAY, strict=True), 1)
     ]
 
 
@@ -43,11 +43,11 @@ def test_weights_of_table_1_match_the_hand():
     np.testing.assert_allclose(sg.light_weight(lights, (0, 0, 0)), by_hand.sum(axis=0), rtol=1e-14)
 
 
-def test_recoloured_table_is_equation_1():
+def test_recolored_table_is_equation_1():
     weight = np.array(sg.PAPER_BLOOD_WEIGHT) + sg.light_weight(table1_lights(), (0, 0, 0))
-    grey = np.array([1.0, 0.25, 1e-9, 0.0])
-    table = sg.recolour(sg.BaseLut(grey, 12.0), weight)
-    by_hand = grey[:, None] * (np.array([1.8, 0.5, 0.4]) + table1_by_hand().sum(axis=0))
+    gray = np.array([1.0, 0.25, 1e-9, 0.0])
+    table = sg.recolor(sg.BaseLut(gray, 12.0), weight)
+    by_hand = gray[:, None] * (np.array([1.8, 0.5, 0.4]) + table1_by_hand().sum(axis=0))
     np.testing.assert_allclose(table, by_hand, rtol=1e-14)
 
 
@@ -61,15 +61,15 @@ def test_attenuation_takes_any_shape():
     assert sg.attenuation([]).shape == (0,)
 
 
-def test_grey_and_matrix_tables():
-    grey = sg.BaseLut([1.0, 0.5, 0.0], 6)
-    assert grey.size == len(grey) == 3
-    np.testing.assert_array_equal(grey.thickness_mm, [0, 3, 6])
-    np.testing.assert_array_equal(grey.matrices, np.array([1, 0.5, 0])[:, None, None] * np.eye(3))
+def test_gray_and_matrix_tables():
+    gray = sg.BaseLut([1.0, 0.5, 0.0], 6)
+    assert gray.size == len(gray) == 3
+    np.testing.assert_array_equal(gray.thickness_mm, [0, 3, 6])
+    np.testing.assert_array_equal(gray.matrices, np.array([1, 0.5, 0])[:, None, None] * np.eye(3))
     values = np.arange(18.0).reshape(2, 3, 3)
     base = sg.BaseLut(values, 6)
     np.testing.assert_array_equal(base.matrices, values)
-    np.testing.assert_allclose(sg.recolour(base, (1, 10, 100)), values @ [1, 10, 100])
+    np.testing.assert_allclose(sg.recolor(base, (1, 10, 100)), values @ [1, 10, 100])
 
 
 def test_matrices_are_a_view_that_outlives_its_table():
@@ -78,7 +78,7 @@ def test_matrices_are_a_view_that_outlives_its_table():
     assert matrices[99, 1, 1] == 1.0
 
 
-def test_texel_mapping_hits_texel_centres():
+def test_texel_mapping_hits_texel_centers():
     base = sg.BaseLut(np.ones(7), 3.0)
     scale, offset = base.texel_mapping
     np.testing.assert_allclose(scale * base.thickness_mm + offset, (np.arange(7) + 0.5) / 7)
@@ -86,7 +86,7 @@ def test_texel_mapping_hits_texel_centres():
 
 @pytest.mark.parametrize("size", [1, 65536])
 def test_smallest_and_largest_table(size):
-    table = sg.recolour(sg.BaseLut(np.full(size, 0.5), 12.0), (2, 4, 1e6))
+    table = sg.recolor(sg.BaseLut(np.full(size, 0.5), 12.0), (2, 4, 1e6))
     assert table.shape == (size, 3)
     np.testing.assert_array_equal(table[-1], [1, 2, 5e5])
 
@@ -129,8 +129,8 @@ def test_lamps_that_are_off_are_left_out(off):
         (lambda: sg.BaseLut([[1, 2]], 12), r"shape \(size,\) or \(size, 3, 3\)"),
         (lambda: sg.BaseLut([1], 0), "max_thickness_mm"),
         (lambda: sg.BaseLut(np.full((2, 3, 3), np.nan), 1), "matrix 0"),
-        (lambda: sg.recolour(sg.BaseLut([1], 1), (1, 2)), "weight"),
-        (lambda: sg.recolour(sg.BaseLut([10], 1), (1e308, 0, 0)), "weight"),
+        (lambda: sg.recolor(sg.BaseLut([1], 1), (1, 2)), "weight"),
+        (lambda: sg.recolor(sg.BaseLut([10], 1), (1e308, 0, 0)), "weight"),
         (lambda: sg.six_gaussian_lookup(0), "table size is 0"),
     ],
 )
@@ -149,8 +149,8 @@ def test_attenuation_is_a_share(distance, coefficients):
 
 
 @given(st.lists(st.tuples(finite, finite, finite), max_size=20), st.randoms())
-def test_sum_does_not_mind_the_order(colours, random):
-    lights = [sg.Light(color=c, position=(k, 0, 0)) for k, c in enumerate(colours)]
+def test_sum_does_not_mind_the_order(colors, random):
+    lights = [sg.Light(color=c, position=(k, 0, 0)) for k, c in enumerate(colors)]
     total = sg.light_weight(lights, (0, 0, 0))
     random.shuffle(lights)
     np.testing.assert_allclose(sg.light_weight(lights, (0, 0, 0)), total, rtol=5e-16)

@@ -168,7 +168,7 @@ def test_turned_environment_on_a_turned_surface_is_the_same(coefficients, axes, 
     np.testing.assert_allclose(turned.mean_irradiance, still.mean_irradiance)
 
 
-def test_mirror_ball_of_one_colour_and_what_lies_outside_it():
+def test_mirror_ball_of_one_color_and_what_lies_outside_it():
     pixels = np.full((64, 64, 3), 1e6, np.float32)
     middles = 2 * (np.arange(64) + 0.5) / 64 - 1
     pixels[np.add.outer(middles**2, middles**2) <= 1] = (0.5, 1, 2)
@@ -196,7 +196,7 @@ def test_mirror_ball_of_one_colour_and_what_lies_outside_it():
         (lambda: sg.Environment((1, 1, 1)).rotated(np.eye(3)[:2]), r"shape \(3, 3\)"),
         (lambda: sg.AngularWeight([0, 1], [0, 0]), "above 0"),
         (lambda: sg.LightTree([]).cull((1, 0, 0), (0, 1, 1), 1), "box least"),
-        (lambda: sg.black_body_colour(10), "800 to 20000 K"),
+        (lambda: sg.black_body_color(10), "800 to 20000 K"),
     ],
 )
 def test_bad_input_is_named(call, message):

@@ -38,7 +38,7 @@ def test_skin_alone_is_lit_by_white(tmp_path):
     table, text = made(tmp_path / "ear.csv", "--skin", "ear", "--size", 32, "--max-thickness", 6)
     lut = sg.base_lut(sg.TISSUE_PRESETS["ear"], 32, 6.0)
     np.testing.assert_allclose(table[:, 0], lut.thickness_mm, atol=1e-12)
-    np.testing.assert_allclose(table[:, 1:], sg.recolour(lut, (1, 1, 1)), rtol=1e-12)
+    np.testing.assert_allclose(table[:, 1:], sg.recolor(lut, (1, 1, 1)), rtol=1e-12)
     assert "mode physical" in text and "error at most" in text
 
 
@@ -47,7 +47,7 @@ def test_lights_bring_their_irradiance(tmp_path):
     irradiance = [float(v) for v in text.split("E (")[1].split(")")[0].split(",")]
     assert all(value > 0 for value in irradiance)
     lut = sg.base_lut(sg.Tissue(melanin_fraction=0.2), 16)
-    np.testing.assert_allclose(table[:, 1:], sg.recolour(lut, irradiance), rtol=1e-12)
+    np.testing.assert_allclose(table[:, 1:], sg.recolor(lut, irradiance), rtol=1e-12)
 
 
 def test_every_parameter_has_an_option_that_counts(tmp_path):
@@ -64,7 +64,7 @@ def test_every_parameter_has_an_option_that_counts(tmp_path):
     for name, (option, value) in options.items():
         table, _ = made(tmp_path / "one.csv", "--skin", "medium", option, value, "--size", 8)
         lut = sg.base_lut(sg.TISSUE_PRESETS["medium"].replace(**{name: value}), 8)
-        np.testing.assert_allclose(table[:, 1:], sg.recolour(lut, (1, 1, 1)), rtol=1e-12)
+        np.testing.assert_allclose(table[:, 1:], sg.recolor(lut, (1, 1, 1)), rtol=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -73,7 +73,7 @@ def test_every_parameter_has_an_option_that_counts(tmp_path):
         (["--skin", "nose"], "allowed: very_light, light"),
         (["--skin", "ear", "--melanin", "0.7"], "melanin_fraction is 0.7; allowed: 0 to 0.5"),
         (["--mode", "paper", "--skin", "ear"], "belong to --mode physical"),
-        (["--mode", "physical", "--base", "grey.png"], "leave out --base"),
+        (["--mode", "physical", "--base", "gray.png"], "leave out --base"),
         (["--mode", "physical", "--tolerance", "1"], "tolerance is 1"),
         (["--mode", "physical", "--point", "0", "0", "0"], "need a RIG file"),
     ],

@@ -89,12 +89,12 @@ def test_the_estimate_bounds_the_error(tissue, exponent, max_thickness):
     assert error <= report.estimated_error <= tolerance
 
 
-def test_base_lut_is_a_table_that_recolours():
+def test_base_lut_is_a_table_that_recolors():
     lut = sg.base_lut(sg.TISSUE_PRESETS["light"], size=64, max_thickness_mm=8.0)
     assert isinstance(lut, sg.BaseLut)
     assert lut.matrices.shape == (64, 3, 3)
     assert lut.max_thickness_mm == 8.0
-    red, blue = sg.recolour(lut, (1, 0, 0)), sg.recolour(lut, (0, 0, 1))
+    red, blue = sg.recolor(lut, (1, 0, 0)), sg.recolor(lut, (0, 0, 1))
     assert np.all(np.diff(red[:, 0]) < 0)
     assert blue[10, 0] < 0.02 * red[10, 0]  # a blue lamp does not make a red ear
 
@@ -112,13 +112,13 @@ def test_report_tells_what_was_chosen():
 def test_spectra():
     assert sg.SAMPLE_WAVELENGTHS_NM.shape == (81,)
     assert not sg.SAMPLE_WAVELENGTHS_NM.flags.writeable
-    np.testing.assert_allclose(sg.spectral_colour(sg.D65_SPECTRUM), 1.0, atol=1e-6)
+    np.testing.assert_allclose(sg.spectral_color(sg.D65_SPECTRUM), 1.0, atol=1e-6)
     np.testing.assert_allclose(sg.transmission_matrix(np.ones(81)), np.eye(3), atol=1e-13)
     table = sg.tabulated_spectrum(sg.SAMPLE_WAVELENGTHS_NM, sg.D65_SPECTRUM)
-    np.testing.assert_allclose(sg.spectral_colour(table), 1.0, atol=5e-3)
-    red, _, blue = sg.spectral_colour(sg.blackbody_spectrum(2700.0))
+    np.testing.assert_allclose(sg.spectral_color(table), 1.0, atol=5e-3)
+    red, _, blue = sg.spectral_color(sg.blackbody_spectrum(2700.0))
     assert red > 5 * blue
-    assert sg.spectral_colour(sg.line_spectrum(589.3, 1.0))[2] < 0  # sodium lies outside the gamut
+    assert sg.spectral_color(sg.line_spectrum(589.3, 1.0))[2] < 0  # sodium lies outside the gamut
 
 
 @given(st.lists(st.floats(0, 1), min_size=81, max_size=81), st.tuples(*[st.floats(0, 4)] * 3))
@@ -127,8 +127,8 @@ def test_matrix_is_the_full_spectral_answer_for_lights_of_the_basis(filter_, rgb
     if max(rgb) < 1e-3:
         return
     spectrum = sg.rgb_spectrum(rgb)
-    exact = sg.spectral_colour(spectrum, filter_)
-    found = sg.transmission_matrix(filter_) @ sg.spectral_colour(spectrum)
+    exact = sg.spectral_color(spectrum, filter_)
+    found = sg.transmission_matrix(filter_) @ sg.spectral_color(spectrum)
     np.testing.assert_allclose(found, exact, atol=1e-9 * max(1.0, np.max(np.abs(found))))
 
 
@@ -151,10 +151,10 @@ def test_diffusion_theory_is_near_in_deep_skin_only():
         (lambda: sg.base_lut(sg.Tissue(), max_thickness_mm=0), "max_thickness_mm"),
         (lambda: sg.base_lut(sg.Tissue(), size=0), "table size"),
         (lambda: sg.blackbody_spectrum(10.0), "temperature_k is 10"),
-        (lambda: sg.line_spectrum(900.0, 10.0), "centre_nm"),
+        (lambda: sg.line_spectrum(900.0, 10.0), "center_nm"),
         (lambda: sg.tabulated_spectrum([500.0, 400.0], [1.0, 1.0]), "wavelength_nm"),
-        (lambda: sg.spectral_colour(np.ones(80)), r"shape \(80,\)"),
-        (lambda: sg.spectral_colour(np.zeros(81)), "luminance"),
+        (lambda: sg.spectral_color(np.ones(80)), r"shape \(80,\)"),
+        (lambda: sg.spectral_color(np.zeros(81)), "luminance"),
     ],
 )
 def test_bad_input_is_refused(call, message):

@@ -23,7 +23,7 @@ def scene_inputs(scene: bpy.types.Scene) -> dict[str, str]:
     """What every picture of a scene depends on, a digest each; the scene stands at a frame that is always the same.
 
     files     the blend file as saved, its libraries and the images it reads
-    render    settings of rendering, colour management and output, and the camera
+    render    settings of rendering, color management and output, and the camera
     skins     the settings of every skin
     programs  versions, in words
     What was changed in memory alone shows where it is a lamp, a camera, a setting or animation of these; a mesh or

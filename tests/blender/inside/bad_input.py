@@ -39,7 +39,7 @@ def check_objects_that_cannot_be_skins(_work):
 
 def check_settings(_work):
     obj = patch()
-    refused(ValueError, "has no setting 'colour'", sb.make_skin, obj, thickness=THIN, colour=1)
+    refused(ValueError, "has no setting 'color'", sb.make_skin, obj, thickness=THIN, color=1)
     refused(ValueError, "mode = 'magic'", sb.make_skin, obj, thickness=THIN, mode="magic")
     refused(sb.SkinError, "4 vertices", sb.make_skin, obj, thickness=[1.0])
     refused(sb.SkinError, "negative or not finite", sb.make_skin, obj, thickness=[0, 1, 2, np.nan])

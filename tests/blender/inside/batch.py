@@ -27,7 +27,7 @@ from inside.batch_studio import (
 )
 from inside.scenes import (
     BLOOD,
-    grey,
+    gray,
 )
 
 
@@ -65,7 +65,7 @@ def check_manifest_tells_what_each_picture_was_made_with(work):
         assert skin["settings"]["blood_weight"] == [float(np.float32(b)) for b in BLOOD]
         light = np.asarray(color_at(entry["rig"], entry["frame"]), np.float32).astype(float) / 2.0
         np.testing.assert_allclose(skin["weight"], light, rtol=1e-12)
-        table = (grey()[:, None] * (BLOOD + light)).astype("<f4")
+        table = (gray()[:, None] * (BLOOD + light)).astype("<f4")
         assert skin["lookup"]["entries"] == 256
         assert skin["lookup"]["sha256"] == hashlib.sha256(table.tobytes()).hexdigest()
         lamps = {row["name"]: row for row in skin["lamps"]}

@@ -12,7 +12,7 @@ from inside.scenes import (
     black_material,
     camera_above,
     depsgraph,
-    grey,
+    gray,
     lamp,
     patch,
     read_exr,
@@ -29,7 +29,7 @@ def color_at(rig, frame):
 
 
 def studio():
-    """A patch of no thickness, and a collection of one lamp for each rig, its colour keyed on every frame."""
+    """A patch of no thickness, and a collection of one lamp for each rig, its color keyed on every frame."""
     for rig in RIGS:
         collection = bpy.data.collections.new(rig)
         bpy.context.scene.collection.children.link(collection)
@@ -47,9 +47,9 @@ def studio():
 
 
 def expected(*lights):
-    """Eq. 1 to 3 at no thickness for lamps of (colour, distance)."""
+    """Eq. 1 to 3 at no thickness for lamps of (color, distance)."""
     weight = BLOOD + sum(np.asarray(color, np.float32).astype(float) / (1.0 + d**2) for color, d in lights)
-    return grey()[0] * weight
+    return gray()[0] * weight
 
 
 def shown_in(path):

@@ -27,7 +27,7 @@ def resident_mb():
 
 
 def check_ten_thousand_updates(_work):
-    """Of a lamp's colour and place, each seen by the handlers, each a new table."""
+    """Of a lamp's color and place, each seen by the handlers, each a new table."""
     lamp("Key")
     obj = patch(material=black_material())
     sb.make_skin(obj, thickness=[0.0, 1.0, 2.0, 3.0])

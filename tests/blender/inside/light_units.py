@@ -161,7 +161,7 @@ def check_nodes(work):
 
 
 def check_settings_of_4_5(work):
-    """Exposure, temperature and lamps that are not normalised; Blender before 4.5 has none of them."""
+    """Exposure, temperature and lamps that are not normalized; Blender before 4.5 has none of them."""
     if "exposure" not in bpy.types.Light.bl_rna.properties:
         assert bpy.app.version < (4, 5, 0)
         return None

@@ -24,7 +24,7 @@ def check_table_1_by_hand(_work):
     )
     shown = sb.lut(obj, depsgraph())
     assert shown.shape == (256, 3) and shown.dtype == np.float32
-    # Blender keeps colours and places in single precision: 6e-8 each.
+    # Blender keeps colors and places in single precision: 6e-8 each.
     np.testing.assert_allclose(shown[0] / sg.six_gaussian_base().matrices[0, 0, 0], by_hand, rtol=2e-7)
 
 
@@ -37,7 +37,7 @@ def check_pixels_are_exact(_work):
     lights = [
         sg.Light(color=tuple(o.data.color), position=tuple(o.matrix_world.translation), name=o.name) for o in lamps
     ]
-    table = sg.recolour(sg.six_gaussian_base(256, 12.0), np.add((1.8, 0.5, 0.4), sg.light_weight(lights, (0, 0, 0))))
+    table = sg.recolor(sg.six_gaussian_base(256, 12.0), np.add((1.8, 0.5, 0.4), sg.light_weight(lights, (0, 0, 0))))
     np.testing.assert_array_equal(sb.lut(obj, depsgraph()), table.astype(np.float32))
     assert_shows(obj, paper_table(lamps))
 
@@ -108,7 +108,7 @@ def check_update_says_what_and_why(_work):
     assert sb.update(depsgraph()) == []
     key.data.color = (1.0, 0.5, 0.0)
     (rebuilt,) = sb.update(depsgraph())
-    assert rebuilt.skin == "Patch" and rebuilt.mode == "VIEWPORT" and rebuilt.why == "light 'Key': colour"
+    assert rebuilt.skin == "Patch" and rebuilt.mode == "VIEWPORT" and rebuilt.why == "light 'Key': color"
     key.location.x = 1.0
     lamp("Fill")
     (rebuilt,) = sb.update(depsgraph())

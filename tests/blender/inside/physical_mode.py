@@ -12,7 +12,7 @@ THIN = [0.0, 1.0, 2.0, 3.0]
 
 
 def physical_table(tissue, lights, point=(0.0, 0.0, 0.0)):
-    return sg.recolour(sg.base_lut(tissue, 256, 12.0), sg.irradiance(lights, point) / np.pi).astype(np.float32)
+    return sg.recolor(sg.base_lut(tissue, 256, 12.0), sg.irradiance(lights, point) / np.pi).astype(np.float32)
 
 
 def check_radiance_of_a_point_lamp(_work):
@@ -21,7 +21,7 @@ def check_radiance_of_a_point_lamp(_work):
     sb.make_skin(obj, thickness=THIN, mode="physical")
     # E = P / (4 pi d^2), by hand.
     irradiance = np.array((1.0, 0.5, 0.25)) * 40.0 / (16.0 * np.pi)
-    expected = sg.recolour(sg.base_lut(sg.TISSUE_PRESETS["light"], 256, 12.0), irradiance / np.pi)
+    expected = sg.recolor(sg.base_lut(sg.TISSUE_PRESETS["light"], 256, 12.0), irradiance / np.pi)
     radius = key.data.shadow_soft_size
     assert radius < 0.3
     np.testing.assert_allclose(sb.lut(obj, depsgraph()), expected, rtol=0.02)
@@ -71,15 +71,15 @@ def check_sliders_are_the_cores(_work):
 
 def check_base_from_an_image(_work):
     key = lamp(location=(0.0, 0.0, 2.0))
-    grey = np.linspace(1.0, 0.0, 32, dtype=np.float32)
+    gray = np.linspace(1.0, 0.0, 32, dtype=np.float32)
     image = bpy.data.images.new("Base", 32, 2, float_buffer=True)
     image.colorspace_settings.name = "Non-Color"
     pixels = np.ones((2, 32, 4), np.float32)
-    pixels[:, :, :3] = grey[None, :, None]
+    pixels[:, :, :3] = gray[None, :, None]
     image.pixels.foreach_set(pixels.ravel())
     obj = patch()
     sb.make_skin(obj, thickness=THIN, base="image", base_image=image)
-    expected = (grey.astype(float)[:, None] * (BLOOD + weight([key], (0, 0, 0)))).astype(np.float32)
+    expected = (gray.astype(float)[:, None] * (BLOOD + weight([key], (0, 0, 0)))).astype(np.float32)
     np.testing.assert_allclose(sb.lut(obj, depsgraph()), expected, rtol=1e-6)
 
     # Bytes of an sRGB picture are decoded: 188 is half of the light.
@@ -94,6 +94,6 @@ def check_base_from_the_skin(_work):
     key = lamp(location=(0.0, 0.0, 2.0))
     obj = patch()
     sb.make_skin(obj, thickness=THIN, base="skin", preset="pale")
-    table = sg.recolour(sg.base_lut(sg.TISSUE_PRESETS["pale"], 256, 12.0), (1.0, 1.0, 1.0))
-    grey = np.maximum(table @ (0.2126, 0.7152, 0.0722), 0.0)
-    np.testing.assert_allclose(sb.lut(obj, depsgraph()), grey[:, None] * (BLOOD + weight([key], (0, 0, 0))), rtol=1e-6)
+    table = sg.recolor(sg.base_lut(sg.TISSUE_PRESETS["pale"], 256, 12.0), (1.0, 1.0, 1.0))
+    gray = np.maximum(table @ (0.2126, 0.7152, 0.0722), 0.0)
+    np.testing.assert_allclose(sb.lut(obj, depsgraph()), gray[:, None] * (BLOOD + weight([key], (0, 0, 0))), rtol=1e-6)

@@ -5,7 +5,7 @@ import numpy as np
 import skinglow_blender as sb
 
 from inside.rendered_frames import assert_frames, render_animation, scene_with_moving_lamp
-from inside.scenes import BLOOD, black_material, camera_above, grey, lamp, patch, read_exr, render_settings
+from inside.scenes import BLOOD, black_material, camera_above, gray, lamp, patch, read_exr, render_settings
 
 
 def check_animation_in_eevee(work):
@@ -33,7 +33,7 @@ def check_objects_on_one_material_keep_apart(work):
         render_settings(9, 9, engine).render.filepath = str(work / f"apart_{engine}.exr")
         bpy.ops.render.render(write_still=True)
         picture = read_exr(work / f"apart_{engine}.exr")
-        table = grey()
+        table = gray()
         entry = 3.0 / 12.0 * 255
         brightness = np.interp(entry, np.arange(256), table)
         for i, obj in enumerate(skins):
@@ -70,5 +70,5 @@ def check_batch_of_rigs(work):
     result = sb.render_batch(work / "batch", 1, {"first": "red", "second": "blue", "third": "red"})
     assert len(result.rendered) == 3, result
     for path, lit in zip(result.rendered, ("red", "blue", "red"), strict=True):
-        expected = grey()[0] * (BLOOD + np.array(colors[lit]) / 2.0)
+        expected = gray()[0] * (BLOOD + np.array(colors[lit]) / 2.0)
         np.testing.assert_allclose(read_exr(path)[2, 2], expected, rtol=2e-3, err_msg=str(path))

@@ -9,7 +9,7 @@ from inside.scenes import (
     black_material,
     camera_above,
     depsgraph,
-    grey,
+    gray,
     lamp,
     paper_table,
     patch,
@@ -56,7 +56,7 @@ def expected_frame(frame, width=16, thickest=12.0):
     entries = thicknesses(width) / thickest * 255
     below = np.floor(entries).astype(int)
     share = (entries - below)[:, None]
-    table = grey()[:, None] * weight
+    table = gray()[:, None] * weight
     return table[below] * (1 - share) + table[below + 1] * share
 
 

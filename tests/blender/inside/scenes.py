@@ -112,7 +112,7 @@ def lamps_seen(graph):
 
 
 def fresh_table(obj, graph, size=256, thickest=12.0):
-    """Eq. 1 to 3 for a skin at its bounds' centre, in numpy, from a depsgraph's own list of lamps."""
+    """Eq. 1 to 3 for a skin at its bounds' center, in numpy, from a depsgraph's own list of lamps."""
     evaluated = obj.evaluated_get(graph)
     corners = np.array([evaluated.matrix_world @ Vector(corner) for corner in evaluated.bound_box], dtype=float)
     point = (corners[0] + corners[6]) / 2
@@ -120,17 +120,17 @@ def fresh_table(obj, graph, size=256, thickest=12.0):
     for other, matrix in lamps_seen(graph):
         distance = 0.0 if other.data.type == "SUN" else np.linalg.norm(matrix[:3, 3] - point)
         total += np.array(other.data.color, dtype=float) / (1.0 + distance**2)
-    return (grey(size, thickest)[:, None] * total).astype(np.float32)
+    return (gray(size, thickest)[:, None] * total).astype(np.float32)
 
 
 def fresh_physical_table(obj, graph, base):
-    """M(d) E / pi for a skin at its bounds' centre, from a depsgraph's own list of lamps."""
+    """M(d) E / pi for a skin at its bounds' center, from a depsgraph's own list of lamps."""
     evaluated = obj.evaluated_get(graph)
     matrix = np.array(evaluated.matrix_world, dtype=float)
     corners = np.array(evaluated.bound_box, dtype=float)[[0, 6]]
     point = matrix[:3, :3] @ corners.mean(axis=0) + matrix[:3, 3]
     lights = [physical_light(other.data, place) for other, place in lamps_seen(graph)]
-    return sg.recolour(base, sg.irradiance(lights, point) / np.pi).astype(np.float32)
+    return sg.recolor(base, sg.irradiance(lights, point) / np.pi).astype(np.float32)
 
 
 def physical_light(light, matrix):
@@ -168,13 +168,13 @@ def assert_fresh(*skins):
         np.testing.assert_allclose(shown, expected, rtol=3e-6, err_msg=obj.name)
 
 
-def grey(size=256, thickest=12.0):
+def gray(size=256, thickest=12.0):
     return sg.six_gaussian_base(size, thickest).matrices[:, 0, 0]
 
 
 def paper_table(lamps, point=(0.0, 0.0, 0.0), size=256, thickest=12.0, coefficients=(1.0, 0.0, 1.0)):
     """Eq. 1, single precision."""
-    return (grey(size, thickest)[:, None] * (BLOOD + weight(lamps, point, coefficients))).astype(np.float32)
+    return (gray(size, thickest)[:, None] * (BLOOD + weight(lamps, point, coefficients))).astype(np.float32)
 
 
 def assert_shows(obj, expected, ulps=1):

@@ -1,4 +1,4 @@
-"""Each operator undone and redone, why a button is grey, and measuring that is cancelled or overtaken."""
+"""Each operator undone and redone, why a button is gray, and measuring that is cancelled or overtaken."""
 
 import time
 
@@ -126,7 +126,7 @@ def check_bake(_work):
 
 
 def check_update(_work):
-    """Not live: the lamp's colour reaches the skin by the button alone."""
+    """Not live: the lamp's color reaches the skin by the button alone."""
     key = lamp("Key")
     obj = skin_ball()
     obj.skinglow.live = False
@@ -175,7 +175,7 @@ def refused(text, operator, **arguments):
         raise AssertionError(f"nothing was said of {text}")
 
 
-def check_why_a_button_is_grey(_work):
+def check_why_a_button_is_gray(_work):
     ops = bpy.ops.skinglow
     refused("Select a mesh that is to glow", ops.make)
     refused("There is no skin in this file yet", ops.update)

@@ -7,7 +7,7 @@ from mathutils import Color
 
 from inside.scenes import black_material, camera_above, depsgraph, lamp, patch, read_exr, render_settings, table_1
 
-#: Blender rounds the colours that it converts to five digits.
+#: Blender rounds the colors that it converts to five digits.
 ROUNDED = 5e-5
 
 
@@ -23,7 +23,7 @@ def spaces():
 
 
 def work_in(space, work):
-    """As a person does: saved, then converted with all its colours."""
+    """As a person does: saved, then converted with all its colors."""
     bpy.ops.wm.save_as_mainfile(filepath=str(work / "space.blend"))
     assert bpy.ops.wm.set_working_color_space(working_space=space, convert_colors=True) == {"FINISHED"}
     assert bpy.data.colorspace.working_space == space
@@ -43,7 +43,7 @@ def skin(mode):
 
 
 def check_lookup_is_the_same(work):
-    """lut() is linear Rec.709 in every space; the pixels are the same colours in the file's own."""
+    """lut() is linear Rec.709 in every space; the pixels are the same colors in the file's own."""
     for mode in ("paper", "physical"):
         for space in spaces():
             bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -68,7 +68,7 @@ def check_lookup_is_the_same(work):
 
 
 def check_picture_is_the_same(work):
-    """Cycles' pictures, converted to Rec.709; a file loaded in its space; a lamp's temperature, its nodes, its colour.
+    """Cycles' pictures, converted to Rec.709; a file loaded in its space; a lamp's temperature, its nodes, its color.
 
     Each by itself: Blender multiplies them channel by channel, and what comes of that depends on the space.
     """
@@ -103,7 +103,7 @@ def check_picture_is_the_same(work):
         np.testing.assert_allclose(second, first, rtol=1e-3, atol=ROUNDED * first.max())
 
 
-def check_colours_beyond_rec709_are_told(work):
+def check_colors_beyond_rec709_are_told(work):
     """A lamp more saturated than Rec.709 gives its share of what Rec.709 holds, and the report says so."""
     for space in spaces():
         bpy.ops.wm.read_factory_settings(use_empty=True)

@@ -57,7 +57,7 @@ def assert_agrees(work, normals, expected=None, tolerance=AGREEMENT):
     return float(off.max())
 
 
-def check_constant_colours(work):
+def check_constant_colors(work):
     stage(64)
     color = np.array((0.8, 0.4, 0.2))
     node = constant_world(color, 2.5)

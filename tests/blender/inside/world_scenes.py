@@ -70,7 +70,7 @@ def directions(height):
 
 
 def smooth_radiance(d):
-    """Each colour of other harmonics up to l = 2, above 0; directions (..., 3)."""
+    """Each color of other harmonics up to l = 2, above 0; directions (..., 3)."""
     x, y, z = d[..., 0], d[..., 1], d[..., 2]
     red = 1.0 + 0.5 * x - 0.2 * y * z
     green = 0.8 + 0.3 * y + 0.25 * (3.0 * z * z - 1.0)

@@ -14,7 +14,7 @@ from inside.scenes import (
     black_material,
     camera_above,
     depsgraph,
-    grey,
+    gray,
     lamp,
     patch,
     render_settings,
@@ -44,7 +44,7 @@ def skin(mode="physical"):
 
 def table(irradiance):
     base = sg.base_lut(sg.TISSUE_PRESETS["light"], 256, 12.0)
-    return sg.recolour(base, np.asarray(irradiance) / math.pi).astype(np.float32)
+    return sg.recolor(base, np.asarray(irradiance) / math.pi).astype(np.float32)
 
 
 def mean_irradiance(colors):
@@ -140,7 +140,7 @@ def check_follows_images(_work):
 
 
 def check_follows_files(work):
-    """A file that is not there, one that is, and one that was written anew and reloaded; its colour space."""
+    """A file that is not there, one that is, and one that was written anew and reloaded; its color space."""
     obj = skin()
     linear = 0.25 + 0.1 * smooth_radiance(directions(16))
     code, darker = coded(linear), coded(0.5 * linear)
@@ -226,7 +226,7 @@ def check_paper_and_existing_know_no_world(_work):
     assert world["kind"] == "WORLD" and not world["weight"].any() and world["share"] == 0.0
     assert world["reason"] == "the paper's formula knows no world"
     bpy.data.objects.remove(key)
-    np.testing.assert_allclose(sb.lut(obj, depsgraph()), grey()[:, None] * BLOOD, rtol=1e-6)
+    np.testing.assert_allclose(sb.lut(obj, depsgraph()), gray()[:, None] * BLOOD, rtol=1e-6)
     obj.skinglow.mode = "EXISTING"
     np.testing.assert_allclose(sb.lut(obj, depsgraph()), sg.six_gaussian_lookup(256, 12.0), atol=1e-7)
 
@@ -242,7 +242,7 @@ def check_report(_work):
     np.testing.assert_allclose([key["share"], world["share"]], [0.5, 0.5], rtol=1e-6)
     assert world["reason"] == world["note"] == ""
     node.inputs["Strength"].default_value = 0.0
-    assert sb.light_report(obj, depsgraph())[1]["reason"] == "its colour or strength is 0"
+    assert sb.light_report(obj, depsgraph())[1]["reason"] == "its color or strength is 0"
     node.inputs["Strength"].default_value = 1.0
     bpy.context.view_layer.use_sky = False
     assert "view layer" in sb.light_report(obj, depsgraph())[1]["reason"]

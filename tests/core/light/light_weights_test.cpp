@@ -150,7 +150,7 @@ TEST(LightWeights, NameTheLampTheyRefuse) {
     lights[1].color.y = -0.5;
     try {
         light_weight(lights, glm::dvec3(0.0));
-        FAIL() << "accepted a negative colour";
+        FAIL() << "accepted a negative color";
     } catch (const std::invalid_argument& error) {
         EXPECT_NE(std::string(error.what()).find("light \"Light2\" color"), std::string::npos)
             << error.what();

@@ -13,12 +13,12 @@ TEST(SixGaussianLookup, IsWhiteAtNoThickness) {
         EXPECT_NEAR(lookup.front()[i], 1.0, 1e-12) << "each column of the weights sums to 1";
 }
 
-TEST(SixGaussianLookup, MatchesHandValuesAtOneMillimetre) {
+TEST(SixGaussianLookup, MatchesHandValuesAtOneMillimeter) {
     // The published weights and variances summed in 30-digit decimals, apart from this code.
-    const glm::dvec3 colour = six_gaussian_lookup({13, 12.0})[1];
-    EXPECT_NEAR(colour.r, 0.3046776622082744, 1e-15);
-    EXPECT_NEAR(colour.g, 0.004562338037056251, 1e-15);
-    EXPECT_NEAR(colour.b, 0.0011999045641787574, 1e-15);
+    const glm::dvec3 color = six_gaussian_lookup({13, 12.0})[1];
+    EXPECT_NEAR(color.r, 0.3046776622082744, 1e-15);
+    EXPECT_NEAR(color.g, 0.004562338037056251, 1e-15);
+    EXPECT_NEAR(color.b, 0.0011999045641787574, 1e-15);
 }
 
 TEST(SixGaussianLookup, ReddensAndFallsWithThickness) {
@@ -32,9 +32,8 @@ TEST(SixGaussianLookup, ReddensAndFallsWithThickness) {
 
 TEST(SixGaussianLookup, HoldsAtExtremeThickness) {
     for (const double thickness : {1e-300, 1e300}) {
-        for (const glm::dvec3& colour : six_gaussian_lookup({3, thickness})) {
-            for (int c = 0; c < 3; ++c)
-                EXPECT_TRUE(colour[c] >= 0.0 && colour[c] <= 1.0 + 1e-12) << colour[c];
+        for (const glm::dvec3& color : six_gaussian_lookup({3, thickness})) {
+            for (int c = 0; c < 3; ++c) EXPECT_TRUE(color[c] >= 0.0 && color[c] <= 1.0 + 1e-12) << color[c];
         }
     }
 }
@@ -44,9 +43,9 @@ TEST(SixGaussianBase, IsTheBrightnessOfTheLookup) {
     const auto lookup = six_gaussian_lookup(axis);
     const BaseLut base = six_gaussian_base(axis);
     for (std::size_t i = 0; i < axis.size(); ++i) {
-        const double grey = 0.2126 * lookup[i].r + 0.7152 * lookup[i].g + 0.0722 * lookup[i].b;
-        EXPECT_NEAR(base.matrices()[i][0][0], grey, 1e-15);
-        EXPECT_EQ(base.matrices()[i], glm::dmat3(base.matrices()[i][0][0])) << "grey";
+        const double gray = 0.2126 * lookup[i].r + 0.7152 * lookup[i].g + 0.0722 * lookup[i].b;
+        EXPECT_NEAR(base.matrices()[i][0][0], gray, 1e-15);
+        EXPECT_EQ(base.matrices()[i], glm::dmat3(base.matrices()[i][0][0])) << "gray";
     }
 }
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "colour/spectrum.h"
+#include "color/spectrum.h"
 #include "random_tissue.h"
 #include "skin/skin_transmittance.h"
 
@@ -82,7 +82,7 @@ TEST(SkinLut, PlanIsFollowed) {
     EXPECT_LT(lut_error(all.lut, reference_lut({}, 64, 12.0, 16)), 1e-12);
 }
 
-TEST(SkinLut, ColourFadesToRedAndEveryPrimaryFades) {
+TEST(SkinLut, ColorFadesToRedAndEveryPrimaryFades) {
     const BaseLut lut = base_lut(tissue_preset("light").tissue);
     double before = 2.0;
     for (std::size_t i = 0; i < lut.size(); ++i) {

@@ -110,8 +110,8 @@ const std::vector<Row>& rows() {
          1e-6,
          5e-8},
         // The manual's row, for which .2622299 and .0960479 have been quoted as converged. Two
-        // discretisations that share no phase matrix (this one, and sampled Legendre polynomials with delta-M
-        // and Wiscombe's normalisation, 48 to 128 streams) agree on these values to 1e-10.
+        // discretizations that share no phase matrix (this one, and sampled Legendre polynomials with delta-M
+        // and Wiscombe's normalization, 48 to 128 streams) agree on these values to 1e-10.
         {"MCML manual 1992, table 6.7",
          {{1.37, .1, 10, .9, 1}, {1.37, .1, 1, 0, 1}, {1.37, .2, 1, .7, 2}},
          Incidence::normal(),

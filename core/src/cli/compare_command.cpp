@@ -1,0 +1,124 @@
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/output_text.h"
+#include "files/image_compare.h"
+#include "numerics/argument_check.h"
+
+namespace skinglow::cli {
+namespace {
+
+struct Options {
+    std::string first;
+    std::string second;
+    std::string heat_map;
+    std::string mask;
+    bool ignore_edges = false;
+    double peak = 1.0;
+    double scale = 0.0;
+    double max_rms = 0.0;
+    bool json = false;
+    CLI::Option* scale_option = nullptr;
+    CLI::Option* max_rms_option = nullptr;
+};
+
+constexpr std::array<const char*, 3> channel_names = {"red", "green", "blue"};
+
+nlohmann::ordered_json to_json(const ImageDifference& difference) {
+    nlohmann::ordered_json object{{"rms", difference.rms}, {"max", difference.max}};
+    object["psnr_db"] = difference.psnr ? nlohmann::ordered_json(*difference.psnr) : nlohmann::ordered_json();
+    return object;
+}
+
+void print_as_json(const ImageComparison& comparison, std::optional<double> heat_map_white) {
+    nlohmann::ordered_json object = to_json(comparison.total);
+    for (std::size_t i = 0; i < 3; ++i) object[channel_names[i]] = to_json(comparison.channel[i]);
+    object["width"] = comparison.width;
+    object["height"] = comparison.height;
+    object["compared_pixels"] = comparison.compared_pixels;
+    object["left_out_pixels"] = comparison.left_out_pixels;
+    object["worst_pixel"] = {comparison.worst_x, comparison.worst_y};
+    if (heat_map_white) object["heat_map_white"] = *heat_map_white;
+    print_json(object);
+}
+
+void print_text(const ImageComparison& comparison, std::optional<double> heat_map_white) {
+    std::vector<std::vector<std::string>> rows{{"channel", "", "RMS", "maximum", "PSNR dB"}};
+    const auto add = [&](const std::string& name, const ImageDifference& difference) {
+        rows.push_back({name, "", short_number(difference.rms), short_number(difference.max),
+                        difference.psnr ? short_number(*difference.psnr) : "same"});
+    };
+    for (std::size_t i = 0; i < 3; ++i) add(channel_names[i], comparison.channel[i]);
+    add("all", comparison.total);
+    print_table(std::cout, rows);
+    std::cout << comparison.compared_pixels << " pixels compared, " << comparison.left_out_pixels
+              << " left out; the worst at (" << comparison.worst_x << ", " << comparison.worst_y << ")\n";
+    if (heat_map_white)
+        std::cout << "heat map: white is a difference of " << short_number(*heat_map_white) << " or more\n";
+}
+
+/// @return the exit code
+int run(const Options& options) {
+    const bool limited = options.max_rms_option->count() > 0;
+    if (limited) require_not_negative("--max-rms", options.max_rms);
+    CompareOptions how;
+    how.peak = options.peak;
+    how.ignore_edges = options.ignore_edges;
+    if (!options.mask.empty()) how.mask = options.mask;
+    const ImageComparison comparison = compare_images(options.first, options.second, how);
+    for (const std::string& note : comparison.notes) std::cerr << "skinglow: file " << note << '\n';
+    std::optional<double> white;
+    if (!options.heat_map.empty()) {
+        std::optional<double> scale;
+        if (options.scale_option->count() > 0) scale = options.scale;
+        white = write_heat_map(options.heat_map, comparison, scale);
+    }
+    if (options.json) {
+        print_as_json(comparison, white);
+    } else {
+        print_text(comparison, white);
+    }
+    if (!limited || comparison.total.rms <= options.max_rms) return 0;
+    std::cerr << "skinglow: RMS " << short_number(comparison.total.rms) << " is above --max-rms "
+              << short_number(options.max_rms) << '\n';
+    return 1;
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& program, int& exit_code) {
+    CLI::App* command = program.add_subcommand("compare", "How far two images are apart, in linear light");
+    const auto options = std::make_shared<Options>();
+    command->add_option("A", options->first, "An image")->required();
+    command->add_option("B", options->second, "Another of the same size")->required();
+    command
+        ->add_option("--heatmap", options->heat_map,
+                     "Write a picture of the difference: black none, white most")
+        ->type_name("PNG");
+    options->scale_option = command
+                                ->add_option("--scale", options->scale,
+                                             "Difference that the heat map shows white; else the largest")
+                                ->type_name("X")
+                                ->needs("--heatmap");
+    command->add_option("--mask", options->mask, "Compare only where this image is above 0")
+        ->type_name("IMAGE");
+    command->add_flag(
+        "--ignore-edges", options->ignore_edges,
+        "Leave out antialiased edges: pixels in whose 3 x 3 neighborhood alpha or mask changes");
+    command->add_option("--peak", options->peak, "Value of white for PSNR")
+        ->type_name("X")
+        ->capture_default_str();
+    options->max_rms_option = command
+                                  ->add_option("--max-rms", options->max_rms,
+                                               "Exit with 1 if the RMS over all channels is above it")
+                                  ->type_name("X");
+    command->add_flag("--json", options->json, "Print JSON with every digit instead of a table");
+    command->footer(
+        "Example: skinglow compare blender.exr povray.exr --ignore-edges --heatmap difference.png --max-rms "
+        "0.0039\n"
+        "Exit code: 0, and with --max-rms 1 if the images are too far apart; 2 on an error.");
+    command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace skinglow::cli

@@ -1,0 +1,139 @@
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+
+#include "cli/commands.h"
+#include "cli/output_text.h"
+#include "cli/rig_options.h"
+#include "cli/skin_options.h"
+#include "cli/table_options.h"
+#include "files/lut_file.h"
+#include "files/lut_preview.h"
+#include "numerics/argument_check.h"
+#include "rig/irradiance.h"
+#include "skin/fixed_lookup.h"
+#include "skin/recolor.h"
+
+namespace skinglow::cli {
+namespace {
+
+struct Options {
+    RigOptions rig;
+    TableOptions table;
+    SkinOptions skin;
+    int bits = 8;
+    std::string encoding = "srgb";
+    std::string output;
+    std::string preview;
+};
+
+LutTable existing_table(const Options& options) {
+    if (options.rig.any_used() || options.table.has_base()) {
+        throw std::invalid_argument(
+            "--mode existing knows no lights and has a fixed table: leave out RIG, its options and --base");
+    }
+    const LutAxis axis = options.table.built_in_axis();
+    LutTable table{six_gaussian_lookup(axis), {}};
+    table.record.max_thickness_mm = axis.max_thickness_mm();
+    return table;
+}
+
+LutTable paper_table(const Options& options) {
+    if (!options.rig.given()) throw std::invalid_argument("--mode paper needs lights: give a RIG file");
+    const LightRig rig = options.rig.read();
+    const BaseLut base = options.table.read_base();
+    const glm::dvec3 lights = light_weight(rig.lights, rig.point, rig.coefficients);
+    LutTable table{recolor(base, rig.blood_weight + lights), {}};
+    table.record.max_thickness_mm = base.axis().max_thickness_mm();
+    table.record.light_weight = lights;
+    table.record.blood_weight = rig.blood_weight;
+    table.record.coefficients = rig.coefficients;
+    return table;
+}
+
+/// The light that leaves the skin, M(d) E; without lights that of a white lamp that brings 1 W/m^2.
+LutTable physical_table(const Options& options) {
+    if (options.table.has_base()) {
+        throw std::invalid_argument("--mode physical makes its base from the skin: leave out --base");
+    }
+    const LutAxis axis = options.table.built_in_axis();
+    const SkinLut skin =
+        skin_lut(options.skin.tissue(), axis.size(), axis.max_thickness_mm(), options.skin.tolerance());
+    glm::dvec3 irradiance(1.0);
+    if (options.rig.given()) {
+        const LightRig rig = options.rig.read();
+        irradiance = object_irradiance(rig.lights, rig.point);
+    } else if (options.rig.any_used()) {
+        throw std::invalid_argument("options of lights need a RIG file");
+    }
+    LutTable table{recolor(skin.lut, irradiance), {}};
+    table.record.max_thickness_mm = axis.max_thickness_mm();
+    table.record.light_weight = irradiance;
+    std::cout << "skin solved at " << skin.report.wavelengths_nm.size() << " wavelengths and "
+              << skin.report.thickness_nodes_mm.size() << " thicknesses with " << skin.report.streams
+              << " streams, error at most " << short_number(skin.report.estimated_error) << "; E "
+              << to_text(irradiance) << " W/m^2; radiance is the table over pi\n";
+    return table;
+}
+
+/// What --mode says; the options of skin alone say physical.
+std::string chosen_mode(const Options& options) {
+    if (!options.skin.any_used()) return options.table.mode();
+    if (options.table.has_mode() && options.table.mode() != "physical") {
+        throw std::invalid_argument("--skin and its options belong to --mode physical");
+    }
+    return "physical";
+}
+
+LutTable make_table(const Options& options, const std::string& mode) {
+    if (mode == "existing") return existing_table(options);
+    return mode == "physical" ? physical_table(options) : paper_table(options);
+}
+
+void run(const Options& options) {
+    const std::string mode = chosen_mode(options);
+    LutTable table = make_table(options, mode);
+    table.record.mode = mode;
+    const PngOptions png{options.bits, options.encoding == "linear" ? Encoding::linear : Encoding::srgb};
+    const LutWriteReport report = write_lut(options.output, table, png);
+    if (report.clamped_texels > 0) {
+        tell(options.output, std::to_string(report.clamped_texels) + " of " +
+                                 std::to_string(table.colors.size()) +
+                                 " texels were clamped to 0..1; .exr and .csv keep them");
+    }
+    std::cout << options.output << ": mode " << table.record.mode << ", " << table.colors.size()
+              << " texels, 0 to " << to_text(table.record.max_thickness_mm) << " mm, "
+              << to_text(table.colors.front()) << " at 0 mm\n";
+    if (!options.preview.empty()) {
+        const LutWriteReport shown = write_lut_preview(options.preview, table);
+        std::cout << options.preview << ": a picture of it, sRGB, " << shown.clamped_texels
+                  << " texels clamped\n";
+    }
+}
+
+}  // namespace
+
+void add_lut_command(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("lut", "Make a lookup table of light coming through skin");
+    const auto options = std::make_shared<Options>();
+    options->rig.add_to(*command, RigNeed::optional);
+    options->table.add_to(*command, true);
+    options->skin.add_to(*command);
+    command->add_option("--bits", options->bits, "Of a PNG")
+        ->check(CLI::IsMember({8, 16}))
+        ->capture_default_str();
+    command->add_option("--encoding", options->encoding, "Of a PNG")
+        ->check(CLI::IsMember({"srgb", "linear"}))
+        ->capture_default_str();
+    command->add_option("-o,--output", options->output, "File to write: .exr, .png or .csv")
+        ->type_name("FILE")
+        ->required();
+    command->add_option("--preview", options->preview, "Also write a PNG to look at, 512 x 64")
+        ->type_name("FILE");
+    command->footer(
+        "Example: skinglow lut table1.json --max-thickness 8 -o ear.exr --preview ear.png\n"
+        "Example: skinglow lut table1.json --mode physical --skin ear --melanin 0.1 -o ear.exr");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace skinglow::cli

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "files/mesh_file.h"
+#include "rays/thickness.h"
+
+namespace skinglow::cli {
+
+/// The options by which commands take a mesh and measure its thickness.
+class MeshOptions {
+  public:
+    /// Adds the mesh under the given name ("MESH" or "--mesh"), --unit, --group, --rays and --min-openness.
+    void add_to(CLI::App& command, const std::string& mesh_name);
+
+    double unit_mm() const { return thickness_.unit_mm; }
+    /// Throws FileError.
+    TriangleMesh read() const { return read_mesh(path_, group_); }
+    /// One per vertex, mm; shows how far it is to a person who waits.
+    std::vector<double> measure(const TriangleMesh& mesh) const;
+
+  private:
+    std::string path_;
+    std::string group_;
+    ThicknessOptions thickness_;
+};
+
+}  // namespace skinglow::cli

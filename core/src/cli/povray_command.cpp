@@ -1,0 +1,181 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <system_error>
+
+#include "cli/commands.h"
+#include "cli/mesh_options.h"
+#include "cli/output_text.h"
+#include "cli/rig_options.h"
+#include "cli/table_options.h"
+#include "files/atomic_file.h"
+#include "numerics/argument_check.h"
+#include "povray/povray_include.h"
+#include "rig_files/file_error.h"
+
+namespace skinglow::cli {
+namespace {
+
+struct Options {
+    RigOptions rig;
+    MeshOptions mesh;
+    TableOptions table;
+    std::string lut;
+    std::string folder;
+    std::string up = "z";
+    std::uint32_t width = 512;
+    std::uint32_t height = 512;
+    double field_of_view = 40.0;
+    double strength = 1.0;
+    std::array<double, 3> surface{};
+    CLI::Option* surface_option = nullptr;
+};
+
+/// The mesh in the scene's axes: a file with y up is laid over as Blender's importers do.
+TriangleMesh place(TriangleMesh mesh, const std::string& up) {
+    if (up == "y") {
+        for (glm::dvec3& vertex : mesh.vertices) vertex = {vertex.x, -vertex.z, vertex.y};
+    }
+    return mesh;
+}
+
+/// A camera of this rotation that sees the whole mesh.
+PovrayCamera frame(const TriangleMesh& mesh, const Options& options) {
+    PovrayCamera camera;
+    camera.width = options.width;
+    camera.height = options.height;
+    const double angle =
+        require_positive("--field-of-view", options.field_of_view) * std::numbers::pi / 180.0;
+    if (options.width == 0 || options.height == 0) refuse_argument("picture size", "0", "1 to 65535 pixels");
+    set_field_of_view(camera, angle);
+    glm::dvec3 low = mesh.vertices.front();
+    glm::dvec3 high = low;
+    for (const glm::dvec3& vertex : mesh.vertices) {
+        low = glm::min(low, vertex);
+        high = glm::max(high, vertex);
+    }
+    const glm::dvec3 center = 0.5 * low + 0.5 * high;
+    const double radius = 0.5 * glm::distance(low, high);
+    const double narrow =
+        std::tan(angle / 2.0) * std::min(1.0, double(options.height) / double(options.width));
+    const glm::dmat3 axes = options.rig.camera();
+    const glm::dvec3 eye = center + axes[2] * (radius / std::sin(std::atan(narrow)));
+    camera.matrix_world = glm::dmat4(glm::dvec4(axes[0], 0.0), glm::dvec4(axes[1], 0.0),
+                                     glm::dvec4(axes[2], 0.0), glm::dvec4(eye, 1.0));
+    return camera;
+}
+
+/// The glow from a table that was made before: it goes into the folder as it is.
+PovrayLut use_table(const Options& options, const std::filesystem::path& folder) {
+    if (options.table.any_used()) {
+        throw std::invalid_argument(
+            "--lut brings its own table: leave out --mode, --base, --size and --max-thickness");
+    }
+    const LutFile file = read_lut(options.lut);
+    for (const std::string& note : file.notes) tell(options.lut, note);
+    PovrayLut lut;
+    lut.axis = LutAxis(file.table.colors.size(), file.table.record.max_thickness_mm);
+    lut.glow = PovrayGlow::image;
+    lut.image = "lut.exr";
+    if (!file.table.record.mode.empty()) lut.mode = lut_mode(file.table.record.mode);
+    write_lut(folder / lut.image, file.table);
+    return lut;
+}
+
+/// The glow that the macros compute for themselves from the base and the lamps.
+PovrayLut compute_table(const Options& options) {
+    PovrayLut lut;
+    lut.mode = lut_mode(options.table.mode());
+    if (lut.mode == LutMode::existing) {
+        if (options.table.has_base())
+            throw std::invalid_argument("--mode existing has a fixed table: leave out --base");
+        lut.axis = options.table.built_in_axis();
+        return lut;
+    }
+    const BaseLut base = options.table.read_base();
+    lut.axis = base.axis();
+    lut.base = gray_entries(base);
+    return lut;
+}
+
+std::filesystem::path make_folder(const std::string& name) {
+    std::error_code error;
+    std::filesystem::create_directories(name, error);
+    if (error)
+        refuse_file(name, "cannot be made: " + error.message(), "choose a folder that you may write to");
+    return name;
+}
+
+void run(const Options& options) {
+    const LightRig rig = options.rig.read();
+    const TriangleMesh mesh = place(options.mesh.read(), options.up);
+    const std::filesystem::path folder = make_folder(options.folder);
+    PovrayScene scene;
+    scene.camera = frame(mesh, options);
+    scene.lights = rig.lights;
+    scene.lut = options.lut.empty() ? compute_table(options) : use_table(options, folder);
+    scene.lut.point = rig.point;
+    scene.lut.coefficients = rig.coefficients;
+    scene.lut.blood_weight = rig.blood_weight;
+    scene.lut.strength = options.strength;
+    if (options.surface_option->count() > 0) {
+        scene.surface = PovraySurface{{options.surface[0], options.surface[1], options.surface[2]}, ""};
+    }
+    scene.mesh.positions = mesh.vertices;
+    scene.mesh.triangles = mesh.triangles;
+    for (const double thickness : options.mesh.measure(mesh)) {
+        scene.mesh.lut_u.push_back(scene.lut.axis.texel_scale() * thickness + scene.lut.axis.texel_offset());
+    }
+    const auto files = povray_files(scene);
+    for (const auto& [name, text] : files) write_text_atomically(folder / name, text);
+    std::cout << options.folder << ": " << files.size() << " files, " << mesh.triangles.size()
+              << " triangles; render with: cd " << options.folder << " && povray scene.ini\n";
+}
+
+}  // namespace
+
+void add_povray_command(CLI::App& program) {
+    CLI::App* command =
+        program.add_subcommand("povray", "Write a POV-Ray scene of a mesh that glows by the rig's lights");
+    const auto options = std::make_shared<Options>();
+    options->rig.add_to(*command, RigNeed::with_camera);
+    options->mesh.add_to(*command, "--mesh");
+    options->table.add_to(*command);
+    command
+        ->add_option("--lut", options->lut,
+                     "A table of skinglow lut; else the scene computes its own by the macros")
+        ->type_name("FILE");
+    command->add_option("-o,--output", options->folder, "Folder for the scene's files; made if missing")
+        ->type_name("DIR")
+        ->required();
+    command->add_option("--up", options->up, "The mesh file's axis that points up")
+        ->check(CLI::IsMember({"y", "z"}))
+        ->capture_default_str();
+    command->add_option("--width", options->width, "Of the picture")
+        ->type_name("PIXELS")
+        ->capture_default_str();
+    command->add_option("--height", options->height, "Of the picture")
+        ->type_name("PIXELS")
+        ->capture_default_str();
+    command->add_option("--field-of-view", options->field_of_view, "Angle that the width covers")
+        ->type_name("DEGREES")
+        ->capture_default_str();
+    command->add_option("--strength", options->strength, "Of the glow")
+        ->type_name("X")
+        ->capture_default_str();
+    options->surface_option =
+        command
+            ->add_option("--surface", options->surface, "Also a matt surface of this color, lit by the lamps")
+            ->type_name("R G B");
+    command->footer(
+        "Example: skinglow povray table1.json --mesh head.obj --unit 100 --group body --up y -o scene");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace skinglow::cli

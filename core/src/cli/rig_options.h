@@ -1,0 +1,46 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <glm/mat3x3.hpp>
+#include <string>
+
+#include "rig_files/light_rig.h"
+
+namespace skinglow::cli {
+
+enum class RigNeed {
+    required,
+    optional,
+    with_camera  ///< required, and the command has a camera of its own, which --camera-rotation turns
+};
+
+/// The options by which commands take lights: a rig file, and what stands on the command line in its place.
+class RigOptions {
+  public:
+    /// Adds RIG, --point, --coefficients, --blood and --camera-rotation.
+    void add_to(CLI::App& command, RigNeed need);
+
+    bool given() const { return !rig_path_.empty(); }
+    /// True where an option that needs a rig was used.
+    bool any_used() const;
+    /// Axes of the camera by --camera-rotation, else Blender's front view.
+    glm::dmat3 camera() const;
+    /// Reads the rig (JSON or *.sl) and puts the command line's numbers in place. What reading decided is
+    /// told on standard error. Throws FileError and std::invalid_argument.
+    LightRig read() const;
+
+  private:
+    RigNeed need_ = RigNeed::required;
+    std::string rig_path_;
+    std::array<double, 3> point_{};
+    std::array<double, 3> coefficients_{};
+    std::array<double, 3> blood_{};
+    std::array<double, 3> camera_degrees_{};
+    CLI::Option* point_option_ = nullptr;
+    CLI::Option* coefficients_option_ = nullptr;
+    CLI::Option* blood_option_ = nullptr;
+    CLI::Option* camera_option_ = nullptr;
+};
+
+}  // namespace skinglow::cli

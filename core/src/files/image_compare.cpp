@@ -1,0 +1,150 @@
+#include "files/image_compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "numerics/argument_check.h"
+#include "rig_files/file_error.h"
+
+namespace skinglow {
+namespace {
+
+constexpr float edge_tolerance = 1.0F / 255.0F;
+
+std::string size_text(const LinearImage& image) {
+    return std::to_string(image.width) + " x " + std::to_string(image.height);
+}
+
+void require_same_size(const std::filesystem::path& path, const LinearImage& image,
+                       const std::filesystem::path& other_path, const LinearImage& other) {
+    if (image.width == other.width && image.height == other.height) return;
+    refuse_file(path,
+                "is " + size_text(image) + " pixels and " + other_path.string() + " is " + size_text(other),
+                "render both at one size");
+}
+
+/// Whether each pixel's 3 x 3 neighborhood holds more than one value; marks it in `edge`.
+void mark_edges(const std::vector<float>& values, int width, int height, std::vector<char>& edge) {
+    const auto at = [&](int x, int y) {
+        return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(x)];
+    };
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            float least = at(x, y);
+            float most = least;
+            for (int j = std::max(0, y - 1); j <= std::min(height - 1, y + 1); ++j) {
+                for (int i = std::max(0, x - 1); i <= std::min(width - 1, x + 1); ++i) {
+                    least = std::min(least, at(i, j));
+                    most = std::max(most, at(i, j));
+                }
+            }
+            if (most - least > edge_tolerance) {
+                edge[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                     static_cast<std::size_t>(x)] = 1;
+            }
+        }
+    }
+}
+
+std::vector<float> read_mask(const std::filesystem::path& path, const std::filesystem::path& image_path,
+                             const LinearImage& image) {
+    const LinearImage mask = read_image(path);
+    require_same_size(path, mask, image_path, image);
+    std::vector<float> values(mask.pixels());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i] = std::max({mask.rgb[3 * i], mask.rgb[3 * i + 1], mask.rgb[3 * i + 2]});
+    }
+    return values;
+}
+
+/// 1 where a pixel is left out.
+std::vector<char> left_out(const std::filesystem::path& first_path, const LinearImage& first,
+                           const LinearImage& second, const CompareOptions& options) {
+    std::vector<char> out(first.pixels(), 0);
+    std::vector<float> mask;
+    if (options.mask) mask = read_mask(*options.mask, first_path, first);
+    if (options.ignore_edges) {
+        if (mask.empty() && first.alpha.empty() && second.alpha.empty()) {
+            refuse_file(first_path, "has no alpha to find edges by, nor has the other",
+                        "render with a transparent background, or give a mask");
+        }
+        for (const std::vector<float>* coverage : {&first.alpha, &second.alpha, &std::as_const(mask)}) {
+            if (!coverage->empty()) mark_edges(*coverage, first.width, first.height, out);
+        }
+    }
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+        if (!(mask[i] > 0.0F)) out[i] = 1;
+    }
+    return out;
+}
+
+ImageDifference make_difference(double sum_of_squares, double max, double count, double peak) {
+    ImageDifference difference{std::sqrt(sum_of_squares / count), max, {}};
+    if (difference.rms > 0.0) difference.psnr = 20.0 * (std::log10(peak) - std::log10(difference.rms));
+    return difference;
+}
+
+void add_notes(ImageComparison& comparison, const std::filesystem::path& path, const LinearImage& image) {
+    for (const std::string& note : image.notes) comparison.notes.push_back(path.string() + ": " + note);
+}
+
+}  // namespace
+
+ImageComparison compare_images(const std::filesystem::path& first_path,
+                               const std::filesystem::path& second_path, const CompareOptions& options) {
+    require_positive("peak", options.peak);
+    const LinearImage first = read_image(first_path);
+    const LinearImage second = read_image(second_path);
+    require_same_size(first_path, first, second_path, second);
+    const std::vector<char> out = left_out(first_path, first, second, options);
+
+    ImageComparison comparison;
+    comparison.width = first.width;
+    comparison.height = first.height;
+    add_notes(comparison, first_path, first);
+    add_notes(comparison, second_path, second);
+    comparison.error.assign(first.pixels(), -1.0F);
+    std::array<double, 3> squares{};
+    std::array<double, 3> largest{};
+    double worst = -1.0;
+    for (std::size_t i = 0; i < first.pixels(); ++i) {
+        if (out[i] != 0) {
+            ++comparison.left_out_pixels;
+            continue;
+        }
+        ++comparison.compared_pixels;
+        double pixel_error = 0.0;
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            // In doubles: the difference of two large floats of unlike sign would overflow.
+            const double difference =
+                std::abs(double{first.rgb[3 * i + channel]} - double{second.rgb[3 * i + channel]});
+            squares[channel] += difference * difference;
+            largest[channel] = std::max(largest[channel], difference);
+            pixel_error = std::max(pixel_error, difference);
+        }
+        constexpr double largest_float = std::numeric_limits<float>::max();
+        comparison.error[i] = static_cast<float>(std::min(pixel_error, largest_float));
+        if (pixel_error > worst) {
+            worst = pixel_error;
+            comparison.worst_x = i % static_cast<std::size_t>(first.width);
+            comparison.worst_y = i / static_cast<std::size_t>(first.width);
+        }
+    }
+    if (comparison.compared_pixels == 0) {
+        refuse_file(first_path, "has no pixel left to compare",
+                    "the mask and the edges leave out all of them");
+    }
+    const auto count = static_cast<double>(comparison.compared_pixels);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        comparison.channel[channel] =
+            make_difference(squares[channel], largest[channel], count, options.peak);
+    }
+    comparison.total =
+        make_difference(squares[0] + squares[1] + squares[2], worst, 3.0 * count, options.peak);
+    return comparison;
+}
+
+}  // namespace skinglow

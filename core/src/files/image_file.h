@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace skinglow {
+
+/// Widest and highest image that is read, and most pixels; beyond it an image is refused before memory is
+/// taken.
+constexpr int max_image_side = 65536;
+constexpr std::int64_t max_image_pixels = std::int64_t{1} << 26;
+
+/// An image as linear light.
+struct LinearImage {
+    int width = 0;
+    int height = 0;
+    bool gray = false;  ///< one color channel in the file; `rgb` repeats it
+    std::vector<float>
+        rgb;  ///< (height, width, 3), rows from the top, linear Rec.709, multiplied by alpha, finite
+    std::vector<float> alpha;                 ///< (height, width) coverage; empty where the file has none
+    std::map<std::string, std::string> text;  ///< text in the file's header whose key begins with "skinglow:"
+    std::vector<std::string> notes;           ///< what reading decided, for people: "... decoded from sRGB"
+
+    std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+};
+
+/// Reads an image of any format that OpenImageIO knows.
+/// - Color: channels R, G, B; else those of the layer named Combined (Blender's multilayer EXR) or of the
+/// only layer;
+///   else one channel as gray. Where several layers could be meant the image is refused.
+/// - Encoding: what the file says of itself; a file that says nothing is linear if it holds floats, sRGB if
+/// integers.
+/// - A data window smaller than the picture (a cropped EXR) is put in its place; outside it is black and
+/// uncovered. Throws FileError where the file is unreadable, truncated, too large or holds a pixel that is
+/// not finite.
+LinearImage read_image(const std::filesystem::path& path);
+
+/// The named channels of an image as they stand in the file, not decoded, each (height, width); for tables
+/// that are stored as images. `text` and the size are filled, `rgb` is not. Throws FileError as `read_image`
+/// does, and where a channel is missing.
+struct RawChannels {
+    int width = 0;
+    int height = 0;
+    std::vector<std::vector<float>> channels;
+    std::map<std::string, std::string> text;
+};
+RawChannels read_raw_channels(const std::filesystem::path& path, const std::vector<std::string>& names);
+
+/// True where the image's first part has every one of the channels.
+bool has_channels(const std::filesystem::path& path, const std::vector<std::string>& names);
+
+}  // namespace skinglow

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "files/atomic_file.h"
+#include "files/lut_format.h"
+#include "numerics/argument_check.h"
+#include "rig_files/file_error.h"
+#include "rig_files/parse_number.h"
+
+namespace skinglow {
+namespace {
+
+constexpr std::string_view column_names = "thickness_mm,r,g,b";
+// A row has at most 4 numbers of 24 characters: twice the longest table, with room for the header.
+constexpr std::size_t max_csv_bytes = max_lut_size * 200;
+
+/// The text cut at a separator: the part before it; `rest` keeps what follows.
+std::string_view take_until(std::string_view& rest, char separator) {
+    const std::size_t length = std::min(rest.find(separator), rest.size());
+    const std::string_view part = rest.substr(0, length);
+    rest.remove_prefix(std::min(length + 1, rest.size()));
+    return part;
+}
+
+std::array<double, 4> parse_row(std::string_view row, const std::filesystem::path& path,
+                                const std::string& where) {
+    std::array<double, 4> numbers{};
+    std::string_view rest = row;
+    for (double& number : numbers) {
+        const auto parsed = parse_number(take_until(rest, ','));
+        if (!parsed)
+            refuse_file(path, "is \"" + std::string(row) + "\"", "give four finite numbers with commas",
+                        where);
+        number = *parsed;
+    }
+    if (!rest.empty()) refuse_file(path, "has more than four columns", "give thickness_mm,r,g,b", where);
+    return numbers;
+}
+
+/// "# skinglow:key: value" into the header text; other comments are for people.
+void take_comment(std::string_view line, HeaderText& text) {
+    line.remove_prefix(1);
+    if (line.starts_with(' ')) line.remove_prefix(1);
+    const std::size_t end = line.find(": ");
+    if (line.starts_with("skinglow:") && end != std::string_view::npos) {
+        text[std::string(line.substr(0, end))] = std::string(line.substr(end + 2));
+    }
+}
+
+}  // namespace
+
+void write_lut_csv(const std::filesystem::path& path, const LutTable& table) {
+    const LutAxis axis(table.colors.size(), table.record.max_thickness_mm);
+    std::string text = "# Light coming through skin, linear Rec.709, by thickness in mm.\n";
+    for (const auto& [key, value] : to_header_text(table.record)) {
+        text.append("# ").append(key).append(": ").append(value).append("\n");
+    }
+    text += column_names;
+    text += '\n';
+    for (std::size_t i = 0; i < table.colors.size(); ++i) {
+        const glm::dvec3& color = table.colors[i];
+        text += to_text(axis.thickness_mm(i)) + "," + to_text(color.r) + "," + to_text(color.g) + "," +
+                to_text(color.b) + "\n";
+    }
+    write_text_atomically(path, text);
+}
+
+LutFile read_lut_csv(const std::filesystem::path& path) {
+    const std::string content = read_whole_file(path, max_csv_bytes);
+    std::string_view rest = content;
+    HeaderText text;
+    std::vector<glm::dvec3> colors;
+    std::vector<double> thickness;
+    std::vector<std::size_t> lines;
+    bool header_seen = false;
+    for (std::size_t line_number = 1; !rest.empty(); ++line_number) {
+        std::string_view line = take_until(rest, '\n');
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        const std::string where = "line " + std::to_string(line_number);
+        if (line.starts_with('#')) {
+            take_comment(line, text);
+        } else if (!header_seen) {
+            if (line != column_names)
+                refuse_file(path, "does not name the columns thickness_mm,r,g,b", "write it with skinglow",
+                            where);
+            header_seen = true;
+        } else {
+            const auto [mm, red, green, blue] = parse_row(line, path, where);
+            thickness.push_back(mm);
+            lines.push_back(line_number);
+            colors.emplace_back(red, green, blue);
+        }
+    }
+    if (colors.empty() || !content.ends_with('\n'))
+        refuse_file(path, "ends too early", "it was not written to its end; make it anew");
+    const LutRecord record = to_lut_record(text, path);
+    if (colors.size() > max_lut_size) {
+        refuse_file(path, "has " + std::to_string(colors.size()) + " entries",
+                    "at most " + std::to_string(max_lut_size));
+    }
+    const LutAxis axis(colors.size(), record.max_thickness_mm);
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        const double expected = axis.thickness_mm(i);
+        // Rounding in a spreadsheet is forgiven, a missing or moved row is not.
+        if (std::abs(thickness[i] - expected) > 1e-6 * record.max_thickness_mm) {
+            refuse_file(
+                path, "has thickness " + to_text(thickness[i]) + " mm where " + to_text(expected) + " is due",
+                "rows are evenly spaced from 0 to max_thickness_mm; none may be missing",
+                "line " + std::to_string(lines[i]));
+        }
+    }
+    return {{std::move(colors), record}, {}};
+}
+
+}  // namespace skinglow

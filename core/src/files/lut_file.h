@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "files/transfer_function.h"
+#include "light/light_weights.h"
+#include "skin/base_lut.h"
+
+/// Lookup tables as files. A table is an image one texel high; entry i is texel i (LutAxis). What the pixels
+/// do not say (the thickness axis in mm, how the table was made) is text in the header, keys "skinglow:...":
+/// table ("recolored" or "base"), max_thickness_mm, mode, light_weight, blood_weight, coefficients,
+/// encoding.
+namespace skinglow {
+
+/// How a recolored table was made; what does not apply stays empty.
+struct LutRecord {
+    double max_thickness_mm = 0.0;
+    std::string mode;                        ///< "existing", "paper" or "physical"
+    std::optional<glm::dvec3> light_weight;  ///< L of Eq. 3; in mode physical the irradiance E, W/m^2
+    std::optional<glm::dvec3> blood_weight;  ///< B of Eq. 1
+    std::optional<AttenuationCoefficients> coefficients;  ///< of Eq. 2
+};
+
+/// A recolored table: linear Rec.709, values above 1 kept.
+struct LutTable {
+    std::vector<glm::dvec3> colors;
+    LutRecord record;
+};
+
+/// Of integer files only.
+struct PngOptions {
+    int bits = 8;                        ///< 8 or 16
+    Encoding encoding = Encoding::srgb;  ///< said in the header, as a chunk that viewers know and as text
+};
+
+struct LutWriteReport {
+    std::size_t clamped_texels = 0;  ///< texels with a channel below 0 or above 1 that a PNG could not hold
+};
+
+/// Writes by extension: .exr (float32), .png, .csv (thickness_mm,r,g,b with every digit). Whole or not at
+/// all. Throws FileError on another extension, a value beyond float32 (EXR) or a folder that cannot be
+/// written; std::invalid_argument on an empty or too long table, a color or axis that is not finite, bits
+/// other than 8 and 16.
+LutWriteReport write_lut(const std::filesystem::path& path, const LutTable& table,
+                         const PngOptions& png = {});
+
+/// Texels with a channel below 0 or above 1, which files of whole numbers cannot hold.
+std::size_t count_clamped(const LutTable& table);
+
+/// A table and what people should know about how it was read.
+struct LutFile {
+    LutTable table;
+    std::vector<std::string> notes;
+};
+
+/// Reads what write_lut wrote: EXR gives the same float32 values, CSV the same doubles, PNG its rounded ones.
+/// Throws FileError, naming the line of a CSV, on anything else.
+LutFile read_lut(const std::filesystem::path& path);
+
+struct BaseLutFile {
+    BaseLut base;
+    std::vector<std::string> notes;
+};
+
+/// Reads an image as a base lookup: thickness grows with x from the first texel (0 mm) to the last.
+/// A table of write_base_lut gives its matrices. Any other image gives brightness: an image of several rows
+/// the mean of each column's linear light, color its Rec.709 luminance; each said in `notes`.
+/// @param max_thickness_mm  of the last texel; without it the file's own, else 12 mm, which is said in
+/// `notes` Throws FileError as read_image does, where the image is wider than max_lut_size or a brightness is
+/// negative.
+BaseLutFile read_base_lut(const std::filesystem::path& path, std::optional<double> max_thickness_mm = {});
+
+/// Writes the matrices as a float32 EXR of nine channels M00 to M22: Mij takes channel j of the light on the
+/// far side to channel i of the light coming through. Throws FileError as write_lut does.
+void write_base_lut(const std::filesystem::path& path, const BaseLut& base);
+
+/// Where nothing says how thick the skin of a table's last entry is; also the default of the Python package.
+constexpr double default_max_thickness_mm = 12.0;
+
+}  // namespace skinglow

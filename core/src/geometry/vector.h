@@ -1,0 +1,33 @@
+#pragma once
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
+
+/// Length that neither over- nor underflows on the way; inf only where it is itself beyond the largest
+/// double.
+double length(const glm::dvec3& v);
+
+/// Unit vector of any finite vector but 0, also where its square would over- or underflow.
+glm::dvec3 unit(const glm::dvec3& v);
+
+/// Angle between two vectors of any length, radians, 0 to pi. By atan2: exact near 0 and pi, where acos of a
+/// dot product is not.
+double angle_between(const glm::dvec3& a, const glm::dvec3& b);
+
+/// Largest component by magnitude.
+double max_abs(const glm::dvec3& v);
+
+/// Right-handed orthonormal frame, as columns x, y, z, whose z is the unit vector given. It takes directions
+/// about +z to that axis.
+glm::dmat3 frame_around(const glm::dvec3& unit_axis);
+
+/// The same for a direction of any length but 0, with x along the tangent as far as it is perpendicular to
+/// the direction. A tangent parallel to it, or 0, leaves x to chance.
+glm::dmat3 frame_around(const glm::dvec3& direction, const glm::dvec3& tangent);
+
+}  // namespace skinglow::detail

@@ -1,0 +1,89 @@
+#include "povray/sdl_text.h"
+
+#include <array>
+#include <charconv>
+
+#include "numerics/argument_check.h"
+
+namespace skinglow {
+namespace {
+
+constexpr std::string_view hexadecimal = "0123456789ABCDEF";
+
+// Not by <cctype>: whether a letter is one must not depend on the locale of the host.
+bool is_letter_or_digit(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+bool is_printable_ascii(char c) {
+    return c >= ' ' && c <= '~';
+}
+
+}  // namespace
+
+SdlText& SdlText::add(double value) {
+    std::array<char, 32> buffer{};
+    // Minus zero and zero are the same to a scene; one spelling keeps files of equal scenes equal.
+    const auto end =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), value == 0.0 ? 0.0 : value).ptr;
+    text_.append(buffer.data(), end);
+    return *this;
+}
+
+SdlText& SdlText::add(std::uint32_t value) {
+    std::array<char, 16> buffer{};
+    text_.append(buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr);
+    return *this;
+}
+
+SdlText& SdlText::add(const glm::dvec2& value) {
+    return add("<").add(value.x).add(",").add(value.y).add(">");
+}
+
+SdlText& SdlText::add(const glm::dvec3& value) {
+    return add("<").add(value.x).add(",").add(value.y).add(",").add(value.z).add(">");
+}
+
+std::string sdl_identifier(std::string_view kind, std::string_view name) {
+    std::string identifier = "Skinglow_";
+    identifier += kind;
+    identifier += '_';
+    for (const char c : name) {
+        if (is_letter_or_digit(c)) {
+            identifier += c;
+        } else {
+            const auto byte = static_cast<unsigned char>(c);
+            identifier += {'_', hexadecimal[byte >> 4U], hexadecimal[byte & 15U], '_'};
+        }
+    }
+    // POV-Ray ends at "String too long" somewhere above: a sum over the rest keeps long names apart.
+    constexpr std::size_t most = 120;
+    if (identifier.size() > most) {
+        std::uint64_t sum = 0;
+        for (const char c : identifier) sum = sum * 1099511628211ULL + static_cast<unsigned char>(c);
+        identifier.resize(most);
+        identifier += '_';
+        identifier += std::to_string(sum);
+    }
+    return identifier;
+}
+
+std::string sdl_string(std::string_view field, std::string_view text) {
+    std::string literal = "\"";
+    for (const char c : text) {
+        if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') {
+            refuse_argument(field, "\"" + sdl_comment(text) + "\"", "text without control characters");
+        }
+        if (c == '"' || c == '\\') literal += '\\';
+        literal += c;
+    }
+    return literal + '"';
+}
+
+std::string sdl_comment(std::string_view text) {
+    std::string comment;
+    for (const char c : text) comment += is_printable_ascii(c) && c != '\\' ? c : '?';
+    return comment;
+}
+
+}  // namespace skinglow

@@ -1,0 +1,109 @@
+#include "radiometry/environment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
+#include <string>
+
+#include "numerics/argument_check.h"
+#include "radiometry/spherical_harmonics.h"
+
+namespace skinglow {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Of a matrix from single-precision angles, with a margin.
+constexpr double orthogonality_tolerance = 1e-5;
+
+}  // namespace
+
+Environment::Environment(const glm::dvec3& radiance) {
+    coefficients_[0] = require_not_negative("radiance", radiance) * std::sqrt(4 * pi);
+}
+
+Environment::Environment(const std::array<glm::dvec3, 9>& coefficients) : coefficients_(coefficients) {
+    for (std::size_t i = 0; i < coefficients.size(); ++i) {
+        require_finite("coefficients[" + std::to_string(i) + "]", coefficients[i]);
+    }
+}
+
+glm::dvec3 Environment::direction(double u, double v) {
+    const double azimuth = pi * (1 - 2 * u);
+    const double theta = pi * (1 - v);
+    return {std::sin(theta) * std::cos(azimuth), std::sin(theta) * std::sin(azimuth), std::cos(theta)};
+}
+
+Environment Environment::rotated(const glm::dmat3& rotation) const {
+    const glm::dmat3 product = glm::transpose(rotation) * rotation;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            const double off = std::abs(product[i][j] - (i == j ? 1.0 : 0.0));
+            if (!(off <= orthogonality_tolerance)) {
+                refuse_argument("rotation", "off by " + to_text(off), "an orthogonal matrix, to 1e-5");
+            }
+        }
+    }
+    std::array<glm::dvec3, 9> turned{};
+    turned[0] = coefficients_[0];
+    for (int channel = 0; channel < 3; ++channel) {
+        const auto at = [&](std::size_t i) { return coefficients_[i][channel]; };
+        // Band 1 is a vector, band 2 a quadratic form without trace, d^T Q d: both turn as such, exactly.
+        const glm::dvec3 vector = rotation * glm::dvec3(at(3), at(1), at(2));
+        turned[1][channel] = vector.y;
+        turned[2][channel] = vector.z;
+        turned[3][channel] = vector.x;
+        // In units of the constant before xy; 3z^2 - 1 has 1 / sqrt(12) of it.
+        const double across = 0.5 * at(8);
+        const double zonal = at(6) / std::sqrt(12.0);
+        const glm::dmat3 form = {across - zonal, 0.5 * at(4), 0.5 * at(7), 0.5 * at(4), -across - zonal,
+                                 0.5 * at(5),    0.5 * at(7), 0.5 * at(5), 2 * zonal};
+        const glm::dmat3 q = rotation * form * glm::transpose(rotation);
+        turned[4][channel] = 2 * q[1][0];
+        turned[5][channel] = 2 * q[2][1];
+        turned[6][channel] = 0.5 * q[2][2] * std::sqrt(12.0);
+        turned[7][channel] = 2 * q[2][0];
+        turned[8][channel] = q[0][0] - q[1][1];
+    }
+    return Environment(turned);
+}
+
+std::array<glm::dvec3, 9> Environment::irradiance_polynomial(const AngularWeight* angular_weight) const {
+    // What the cosine keeps of each band (Ramamoorthi and Hanrahan 2001, Eq. 8).
+    const std::array<glm::dvec3, 3> plain = {glm::dvec3(pi), glm::dvec3(2 * pi / 3), glm::dvec3(pi / 4)};
+    const std::array<glm::dvec3, 3>& kept =
+        angular_weight == nullptr ? plain : angular_weight->band_factors();
+    std::array<glm::dvec3, 9> polynomial{};
+    for (std::size_t i = 0; i < 9; ++i) {
+        const std::size_t band = i == 0 ? 0 : (i < 4 ? 1 : 2);
+        polynomial[i] = kept[band] * coefficients_[i] * harmonic_scales[i];
+    }
+    return polynomial;
+}
+
+glm::dvec3 Environment::irradiance(const glm::dvec3& normal, const AngularWeight* angular_weight) const {
+    const std::array<glm::dvec3, 9> polynomial = irradiance_polynomial(angular_weight);
+    const std::array<double, 9> at = harmonic_monomials(normal);
+    glm::dvec3 sum = polynomial[0];
+    for (std::size_t i = 1; i < 9; ++i) sum += polynomial[i] * at[i];
+    // Nine coefficients of a small bright sun swing below 0 on the side away from it.
+    return {std::max(sum.r, 0.0), std::max(sum.g, 0.0), std::max(sum.b, 0.0)};
+}
+
+glm::dvec3 Environment::mean_irradiance_error() const {
+    // The largest size of each monomial on the sphere.
+    constexpr std::array<double, 9> largest = {0, 1, 1, 1, 0.5, 0.5, 2, 0.5, 1};
+    const std::array<glm::dvec3, 9> polynomial = irradiance_polynomial();
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 1; i < 9; ++i) sum += glm::abs(polynomial[i]) * largest[i];
+    return sum;
+}
+
+glm::dvec3 Environment::mean_irradiance() const {
+    const glm::dvec3 mean = coefficients_[0] * (pi * 0.5 * std::sqrt(1 / pi));
+    return {std::max(mean.r, 0.0), std::max(mean.g, 0.0), std::max(mean.b, 0.0)};
+}
+
+}  // namespace skinglow

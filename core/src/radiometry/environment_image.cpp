@@ -1,0 +1,162 @@
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "numerics/argument_check.h"
+#include "radiometry/environment.h"
+#include "radiometry/spherical_harmonics.h"
+
+namespace skinglow {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+using Coefficients = std::array<glm::dvec3, 9>;
+
+/// Integrals over one row of pixels, theta from the zenith, of the parts of the harmonics that depend on it;
+/// exact, so that a constant image has exactly no higher bands.
+struct RowIntegrals {
+    double one, z, s, ss, sz, zz;  // of 1, cos, sin, sin^2, sin cos, cos^2, each times sin theta
+
+    RowIntegrals(double from, double to) {
+        const auto between = [&](const auto& antiderivative) {
+            return antiderivative(to) - antiderivative(from);
+        };
+        one = between([](double t) { return -std::cos(t); });
+        z = between([](double t) { return 0.5 * std::sin(t) * std::sin(t); });
+        s = between([](double t) { return 0.5 * t - 0.25 * std::sin(2 * t); });
+        ss = between([](double t) { return std::cos(t) * (std::cos(t) * std::cos(t) / 3 - 1); });
+        sz = between([](double t) { return std::pow(std::sin(t), 3) / 3; });
+        zz = between([](double t) { return -std::pow(std::cos(t), 3) / 3; });
+    }
+};
+
+/// Sums along one row against the parts of the harmonics that depend on the azimuth.
+struct RowSums {
+    glm::dvec3 one{0.0}, cosine{0.0}, sine{0.0}, cosine2{0.0}, sine2{0.0};
+};
+
+/// The same integrals for each column: of 1, cos, sin, cos 2, sin 2 of the azimuth.
+std::vector<std::array<double, 5>> column_integrals(std::size_t width) {
+    std::vector<std::array<double, 5>> columns(width);
+    for (std::size_t c = 0; c < width; ++c) {
+        const double right = pi - 2 * pi * static_cast<double>(c + 1) / static_cast<double>(width);
+        const double left = pi - 2 * pi * static_cast<double>(c) / static_cast<double>(width);
+        columns[c] = {left - right, std::sin(left) - std::sin(right), std::cos(right) - std::cos(left),
+                      0.5 * (std::sin(2 * left) - std::sin(2 * right)),
+                      0.5 * (std::cos(2 * right) - std::cos(2 * left))};
+    }
+    return columns;
+}
+
+void require_size(std::string_view name, std::size_t found, std::size_t width, std::size_t height,
+                  std::size_t channels) {
+    // By division: the product of absurd sizes would run over.
+    if (width > 0 && height > 0 && channels > 0 && found / width / height / channels == 1 &&
+        found == width * height * channels) {
+        return;
+    }
+    refuse_argument(name, std::to_string(found),
+                    "width * height * channels of them, at least 1 (" + std::to_string(width) + " by " +
+                        std::to_string(height) + " by " + std::to_string(channels) + ")");
+}
+
+Environment finite_environment(const Coefficients& sum) {
+    for (const glm::dvec3& each : sum) {
+        if (!std::isfinite(each.r + each.g + each.b))
+            refuse_argument("pixels", "not all finite", "finite radiance");
+    }
+    return Environment(sum);
+}
+
+/// @param pixel  radiance at (row, column), row 0 looking up
+template <class Pixel>
+Environment integrate_equirectangular(std::size_t width, std::size_t height, const Pixel& pixel) {
+    const std::vector<std::array<double, 5>> columns = column_integrals(width);
+    Coefficients sum{};
+    for (std::size_t row = 0; row < height; ++row) {
+        RowSums along;
+        for (std::size_t c = 0; c < width; ++c) {
+            const glm::dvec3 radiance = pixel(row, c);
+            along.one += radiance * columns[c][0];
+            along.cosine += radiance * columns[c][1];
+            along.sine += radiance * columns[c][2];
+            along.cosine2 += radiance * columns[c][3];
+            along.sine2 += radiance * columns[c][4];
+        }
+        const RowIntegrals theta(pi * static_cast<double>(row) / static_cast<double>(height),
+                                 pi * static_cast<double>(row + 1) / static_cast<double>(height));
+        sum[0] += along.one * theta.one;
+        sum[1] += along.sine * theta.s;
+        sum[2] += along.one * theta.z;
+        sum[3] += along.cosine * theta.s;
+        sum[4] += along.sine2 * (0.5 * theta.ss);
+        sum[5] += along.sine * theta.sz;
+        sum[6] += along.one * (3 * theta.zz - theta.one);
+        sum[7] += along.cosine * theta.sz;
+        sum[8] += along.cosine2 * theta.ss;
+    }
+    // The constants of the harmonics, whose directional parts the sums are.
+    const std::array<double, 9> at_x = spherical_harmonics({1, 0, 0});
+    const double band2 = 2 * at_x[8];
+    const double band2_zonal = -at_x[6];
+    const std::array<double, 9> constant = {at_x[0], at_x[3],     at_x[3], at_x[3],    band2,
+                                            band2,   band2_zonal, band2,   0.5 * band2};
+    for (std::size_t i = 0; i < 9; ++i) sum[i] *= constant[i];
+    return finite_environment(sum);
+}
+
+/// Reads a view from the top row down, whichever row it begins with.
+class PixelReader {
+  public:
+    explicit PixelReader(const RadianceImage& image) : image_(image) {
+        require_size("number of values", image.values.size(), image.width, image.height, image.channels);
+    }
+    glm::dvec3 operator()(std::size_t row, std::size_t column) const {
+        const std::size_t stored = image_.bottom_first ? image_.height - 1 - row : row;
+        const float* p = &image_.values[(stored * image_.width + column) * image_.channels];
+        return image_.channels < 3 ? glm::dvec3(p[0]) : glm::dvec3(p[0], p[1], p[2]);
+    }
+
+  private:
+    const RadianceImage& image_;
+};
+
+}  // namespace
+
+Environment Environment::from_equirectangular(std::span<const glm::dvec3> pixels, std::size_t width,
+                                              std::size_t height) {
+    require_size("number of pixels", pixels.size(), width, height, 1);
+    return integrate_equirectangular(width, height,
+                                     [&](std::size_t row, std::size_t c) { return pixels[row * width + c]; });
+}
+
+Environment Environment::from_equirectangular(const RadianceImage& image) {
+    return integrate_equirectangular(image.width, image.height, PixelReader(image));
+}
+
+Environment Environment::from_mirror_ball(const RadianceImage& image) {
+    const PixelReader pixel(image);
+    Coefficients sum{};
+    std::size_t count = 0;
+    for (std::size_t row = 0; row < image.height; ++row) {
+        const double z = 1 - 2 * (static_cast<double>(row) + 0.5) / static_cast<double>(image.height);
+        for (std::size_t c = 0; c < image.width; ++c) {
+            const double x = 2 * (static_cast<double>(c) + 0.5) / static_cast<double>(image.width) - 1;
+            const double squared = 1 - x * x - z * z;
+            if (squared < 0) continue;
+            // The ball's normal n = (x, y, z) with y < 0 towards the camera; its reflection of the line of
+            // sight (0, 1, 0) leaves along (0, 1, 0) - 2 y n.
+            const double y = -std::sqrt(squared);
+            const std::array<double, 9> basis = spherical_harmonics({-2 * y * x, 1 - 2 * y * y, -2 * y * z});
+            const glm::dvec3 radiance = pixel(row, c);
+            for (std::size_t i = 0; i < 9; ++i) sum[i] += radiance * basis[i];
+            ++count;
+        }
+    }
+    for (glm::dvec3& each : sum) each *= 4 * pi / static_cast<double>(count);
+    return finite_environment(sum);
+}
+
+}  // namespace skinglow

@@ -1,0 +1,123 @@
+#include "radiometry/prepared_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
+
+#include "radiometry/cap_irradiance.h"
+
+namespace skinglow {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A lamp much wider than high is as good as this wide: what it gives depends on the ratio by the square of
+/// it.
+constexpr double thinnest = 1e-4;
+/// A lamp this small against its distance is a point with a cosine: the error is of the order of the square.
+constexpr double point_like = 1e-4;
+/// A patch of this angular radius sees one value of a spot's profile.
+constexpr double sharp = 1e-6;
+/// Limits that keep the integrals within what doubles hold; each changes a result by far less than the
+/// tolerance.
+constexpr double narrowest_spread = 1e-6;  // radians
+constexpr double smallest = 1e-12;         // scene unit; at min_light_distance already point_like
+constexpr double lowest = 1e-9;            // height over an area lamp, in units of its width
+
+}  // namespace
+
+PreparedLight::PreparedLight(const Light& light)
+    : kind_(light.kind), position_(light.position), radius_(light.radius), soft_falloff_(light.soft_falloff) {
+    if (kind_ == LightKind::point) return;
+    frame_ = frame_around(light.direction, light.tangent);
+    if (kind_ == LightKind::sun) sin_sun_radius_ = std::sin(0.5 * light.sun_angle);
+    if (kind_ == LightKind::spot) spot_.emplace(light.spot_angle, light.spot_blend, light.spot_cosine);
+    dark_ = (kind_ == LightKind::spot && light.spot_angle == 0.0) ||
+            (kind_ == LightKind::area && light.spread == 0.0);
+    if (kind_ != LightKind::area) return;
+    area_scale_ = std::max({0.5 * light.size_x, 0.5 * light.size_y, smallest});
+    area_.emplace(light.area_shape, std::max(0.5 * light.size_x / area_scale_, thinnest),
+                  std::max(0.5 * light.size_y / area_scale_, thinnest),
+                  std::max(light.spread, narrowest_spread));
+}
+
+glm::dvec3 PreparedLight::to_light(const glm::dvec3& point) const {
+    if (kind_ == LightKind::sun) return -direction();
+    const glm::dvec3 half_way =
+        0.5 * position_ - 0.5 * point;  // the whole way may be beyond the largest double
+    if (half_way == glm::dvec3(0.0)) return -direction();
+    return unit(half_way);
+}
+
+double PreparedLight::distance(const glm::dvec3& point) const {
+    if (kind_ == LightKind::sun) return 0.0;
+    const glm::dvec3 way = position_ - point;
+    return std::hypot(way.x, way.y, way.z);
+}
+
+PreparedLight::BallTerm PreparedLight::ball_term(double distance) const {
+    const double reach = soft_falloff_ ? std::hypot(distance, radius_) : std::max(distance, radius_);
+    const double held = std::max(reach, min_light_distance);
+    return {0.25 / pi / held / held, radius_ > 0.0 ? radius_ / reach : 0.0,
+            !soft_falloff_ && distance < radius_};
+}
+
+double PreparedLight::through_spot(const BallTerm& ball, const glm::dvec3& normal,
+                                   const glm::dvec3& to_light) const {
+    const glm::dvec3 to_spot = -direction();
+    const double cos_angle = glm::dot(to_light, to_spot);
+    const double cos_normal = glm::dot(normal, to_light);
+    if (ball.sin_radius <= sharp) return spot_->at(cos_angle) * cap_irradiance(cos_normal, ball.sin_radius);
+    const double radius = std::asin(std::min(1.0, ball.sin_radius));
+    const double angle = std::atan2(glm::length(glm::cross(to_light, to_spot)), cos_angle);
+    if (angle - radius >= spot_->edge()) return 0.0;
+    if (angle + radius <= spot_->fade_start() && !spot_->with_cosine())
+        return cap_irradiance(cos_normal, ball.sin_radius);
+    return cap_irradiance_through_spot(*spot_, normal, to_light, to_spot, ball.sin_radius);
+}
+
+double PreparedLight::ball_irradiance(const glm::dvec3& point, const glm::dvec3& normal) const {
+    const double away = distance(point);
+    const BallTerm ball = ball_term(away);
+    const glm::dvec3 towards = to_light(point);
+    const glm::dvec3& facing = away == 0.0 ? towards : normal;
+    if (kind_ == LightKind::spot) return ball.facing * through_spot(ball, facing, towards);
+    return ball.facing *
+           (ball.inside ? 1.0 : cap_irradiance(glm::dot(facing, towards), std::min(1.0, ball.sin_radius)));
+}
+
+double PreparedLight::area_irradiance(const glm::dvec3& point, const glm::dvec3& normal,
+                                      double tolerance) const {
+    const glm::dvec3 way = point - position_;
+    const double away = std::max(std::hypot(way.x, way.y, way.z), min_light_distance);
+    const double height = glm::dot(way, direction());
+    if (!(height >= 0.0) || !std::isfinite(away)) return 0.0;
+    const double widest = 2.0 * area_scale_;
+    if (widest <= point_like * away * std::min(1.0, area_->half_spread())) {
+        const double cos_emitter = std::min(1.0, std::max(height, min_light_distance) / away);
+        const double tangent = std::sqrt(1.0 - cos_emitter * cos_emitter) / cos_emitter;
+        const double cos_normal = std::max(0.0, glm::dot(normal, to_light(point)));
+        return cos_emitter * cos_normal * area_->gain(tangent) / pi / away / away;
+    }
+    glm::dvec3 local =
+        (way / area_scale_) * frame_;  // row vector times matrix: the transpose, the frame's inverse
+    local.z = std::max({local.z, min_light_distance / area_scale_, lowest});
+    const double per_radiance = area_->irradiance(local, normal * frame_, tolerance);
+    return per_radiance / (pi * area_->area()) / area_scale_ / area_scale_;
+}
+
+double PreparedLight::irradiance(const glm::dvec3& point, const glm::dvec3& normal, double tolerance) const {
+    if (dark_) return 0.0;
+    if (kind_ == LightKind::sun) return cap_irradiance(-glm::dot(normal, direction()), sin_sun_radius_);
+    if (kind_ == LightKind::area) return area_irradiance(point, normal, tolerance);
+    return ball_irradiance(point, normal);
+}
+
+double PreparedLight::facing_irradiance(const glm::dvec3& point, double tolerance) const {
+    if (kind_ == LightKind::sun) return 1.0;
+    return irradiance(point, to_light(point), tolerance);
+}
+
+}  // namespace skinglow

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "geometry/vector.h"
+#include "light/light.h"
+#include "radiometry/area_irradiance.h"
+#include "radiometry/spot_profile.h"
+
+namespace skinglow {
+
+/// No lamp is nearer than this, in the scene's length unit: a point at a lamp's very place gets what it gets
+/// at this distance, facing it, so that nothing is infinite.
+constexpr double min_light_distance = 1e-6;
+
+/// A lamp without its color and power, its angles and frames worked out once: how much of a unit of power
+/// arrives. All values are in 1/m^2 (1 for a sun, whose power is W/m^2 already), 0 or more, and finite.
+class PreparedLight {
+  public:
+    /// @param light  checked by `validate`
+    explicit PreparedLight(const Light& light);
+
+    /// Irradiance per unit of power at a point whose surface faces along `normal` (unit), with the cosine and
+    /// the horizon.
+    /// @param tolerance  relative error of the integrals for ellipses and spreads
+    double irradiance(const glm::dvec3& point, const glm::dvec3& normal, double tolerance) const;
+
+    /// The same for a surface that faces the middle of the lamp: no cosine but the lamp's own.
+    double facing_irradiance(const glm::dvec3& point, double tolerance) const;
+
+    /// Unit direction from the point to the middle of the lamp; against its axis where the point is there.
+    glm::dvec3 to_light(const glm::dvec3& point) const;
+    /// Distance to the middle of the lamp, 0 for a sun.
+    double distance(const glm::dvec3& point) const;
+
+    LightKind kind() const { return kind_; }
+    const glm::dvec3& position() const { return position_; }
+    const glm::dvec3& direction() const { return frame_[2]; }
+    double radius() const { return radius_; }
+    bool soft_falloff() const { return soft_falloff_; }
+    double sin_sun_radius() const { return sin_sun_radius_; }
+    const std::optional<SpotProfile>& spot() const { return spot_; }
+    /// The area lamp in units of `area_scale`.
+    const std::optional<AreaEmitter>& area() const { return area_; }
+    double area_scale() const { return area_scale_; }
+    bool dark() const { return dark_; }
+    /// Columns: the lamp's x (along its tangent), y, and z (where it shines to), unit.
+    const glm::dmat3& frame() const { return frame_; }
+
+    /// Point and spot: what a facing receiver gets per unit of power, and the sine of the angular radius of
+    /// the lamp.
+    struct BallTerm {
+        double facing;
+        double sin_radius;
+        bool inside;  ///< within a ball light shines from everywhere
+    };
+    BallTerm ball_term(double distance) const;
+
+  private:
+    double ball_irradiance(const glm::dvec3& point, const glm::dvec3& normal) const;
+    double through_spot(const BallTerm& ball, const glm::dvec3& normal, const glm::dvec3& to_light) const;
+    double area_irradiance(const glm::dvec3& point, const glm::dvec3& normal, double tolerance) const;
+
+    LightKind kind_;
+    glm::dvec3 position_;
+    glm::dmat3 frame_{1.0};
+    double radius_;
+    bool soft_falloff_;
+    double sin_sun_radius_ = 0;
+    std::optional<SpotProfile> spot_;
+    std::optional<AreaEmitter> area_;  ///< in units of area_scale_, so that no size over- or underflows
+    double area_scale_ = 1;
+    bool dark_ = false;  ///< a cone or spread of no width
+};
+
+}  // namespace skinglow

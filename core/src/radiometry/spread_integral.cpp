@@ -1,0 +1,80 @@
+#include "radiometry/spread_integral.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "numerics/gauss_legendre.h"
+
+namespace skinglow {
+namespace {
+
+constexpr double small =
+    0.05;  ///< below it the closed forms cancel and the series, cut at x^10, are exact to 1e-13
+
+/// Integral of x^2 / (1 + x^2)^2 from 0.
+double second_moment(double x) {
+    const double s = x * x;
+    if (x < small) return x * s * (1.0 / 3 + s * (-2.0 / 5 + s * (3.0 / 7 + s * (-4.0 / 9 + s * 5.0 / 11))));
+    return 0.5 * (std::atan(x) - x / (1 + s));
+}
+
+/// Integral of x^3 / (1 + x^2)^2 from 0.
+double third_moment(double x) {
+    const double s = x * x;
+    if (x < small) return s * s * (1.0 / 4 + s * (-2.0 / 6 + s * (3.0 / 8 + s * (-4.0 / 10 + s * 5.0 / 12))));
+    return 0.5 * (std::log1p(s) - s / (1 + s));
+}
+
+}  // namespace
+
+double tangent_minus_angle(double tangent) {
+    const double s = tangent * tangent;
+    if (tangent < small) {
+        return tangent * s * (1.0 / 3 + s * (-1.0 / 5 + s * (1.0 / 7 + s * (-1.0 / 9 + s / 11))));
+    }
+    return tangent - std::atan(tangent);
+}
+
+glm::dvec2 SpreadIntegral::coefficients(double x) const {
+    const double end = std::min(x, tan_half_);
+    const double first = 0.5 * end * end / (1 + end * end);
+    const double second = second_moment(end);
+    return {tan_half_ * first - second, tan_half_ * second - third_moment(end)};
+}
+
+double SpreadIntegral::edge(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& normal_xy,
+                            double normal_z, double tolerance) const {
+    const double length = glm::distance(a, b);
+    if (length == 0.0) return 0.0;
+    const glm::dvec2 along = (b - a) / length;
+    const double offset = a.x * along.y - a.y * along.x;  // distance of the edge's line to the foot, signed
+    if (offset == 0.0) return 0.0;
+    const glm::dvec2 nearest = glm::dvec2(along.y, -along.x) * offset;
+    // By the angle under which the receiver itself sees the edge: every scale of distances is smooth in it.
+    const double reach = std::sqrt(1.0 + offset * offset);
+    const double from = std::atan(glm::dot(a, along) / reach);
+    const double to = std::atan(glm::dot(b, along) / reach);
+    const auto integrand = [&](double angle) {
+        const double tangent = std::tan(angle);
+        const glm::dvec2 place = nearest + along * (reach * tangent);
+        const double square = glm::dot(place, place);
+        if (square == 0.0) return 0.0;
+        const double x = std::sqrt(square);
+        const glm::dvec2 c = coefficients(x);
+        const double wedge = offset * reach * (1 + tangent * tangent) / square;  // d(phi) / d(angle)
+        return wedge * (-normal_z * c.x + glm::dot(normal_xy, place) / x * c.y);
+    };
+    // Where the edge enters and leaves the disk beyond which the lamp does not shine.
+    const double square = tan_half_ * tan_half_ - offset * offset;
+    const double kink = square > 0 ? std::atan(std::sqrt(square) / reach) : 0.0;
+    const double first = std::clamp(-kink, from, to);
+    const double last = std::clamp(kink, from, to);
+    double sum = 0;
+    for (const glm::dvec2& piece : {glm::dvec2(from, first), glm::dvec2(first, last), glm::dvec2(last, to)}) {
+        if (piece.y > piece.x) sum += integrate_adaptively(integrand, piece.x, piece.y, tolerance);
+    }
+    return sum;
+}
+
+}  // namespace skinglow

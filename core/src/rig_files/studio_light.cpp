@@ -1,0 +1,133 @@
+#include "rig_files/studio_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+#include <map>
+#include <string_view>
+
+#include "numerics/argument_check.h"
+#include "rig_files/file_error.h"
+#include "rig_files/parse_number.h"
+
+namespace skinglow {
+namespace {
+
+constexpr std::size_t max_bytes = std::size_t{1} << 20U;  // a real one has 2 kB
+constexpr int lamp_count = 4;
+constexpr const char* remedy = "give a studio light (*.sl) as Blender writes it";
+
+/// The numbers of the file by key.
+class StudioLightText {
+  public:
+    explicit StudioLightText(const std::filesystem::path& path) : path_(path) {
+        const std::string content = read_whole_file(path, max_bytes);
+        std::string_view rest = content;
+        for (std::size_t line = 1; !rest.empty(); ++line) {
+            const std::size_t length = std::min(rest.find('\n'), rest.size());
+            take_line(rest.substr(0, length), line);
+            rest.remove_prefix(std::min(length + 1, rest.size()));
+        }
+        if (const double version = number("version"); version != 1.0) {
+            refuse_file(path, "is " + to_text(version), "version 1 is read", "key version");
+        }
+    }
+
+    double number(const std::string& key) const {
+        const auto found = numbers_.find(key);
+        if (found == numbers_.end()) refuse_file(path_, "is missing", remedy, "key " + key);
+        return found->second;
+    }
+
+    glm::dvec3 vector(const std::string& key) const {
+        return {number(key + ".x"), number(key + ".y"), number(key + ".z")};
+    }
+
+    glm::dvec3 color(const std::string& key) const {
+        const glm::dvec3 value = vector(key);
+        for (int i = 0; i < 3; ++i) {
+            if (value[i] < 0.0)
+                refuse_file(path_, "is " + to_text(value), "colors are 0 or more", "key " + key);
+        }
+        return value;
+    }
+
+  private:
+    void take_line(std::string_view line, std::size_t line_number) {
+        while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
+        if (line.empty()) return;
+        const std::string where = "line " + std::to_string(line_number);
+        const std::size_t space = line.find(' ');
+        const auto value =
+            space == std::string_view::npos ? std::nullopt : parse_number(line.substr(space + 1));
+        if (!value) refuse_file(path_, "is no key with a finite number", remedy, where);
+        const std::string key(line.substr(0, space));
+        if (!numbers_.emplace(key, *value).second)
+            refuse_file(path_, "names " + key + " a second time", remedy, where);
+    }
+
+    const std::filesystem::path& path_;
+    std::map<std::string, double> numbers_;
+};
+
+void require_orthonormal(const glm::dmat3& camera) {
+    const glm::dmat3 product = glm::transpose(camera) * camera;
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) {
+            const double expected = column == row ? 1.0 : 0.0;
+            if (!(std::abs(product[column][row] - expected) < 1e-6)) {
+                refuse_argument("camera", to_text(camera[0]) + to_text(camera[1]) + to_text(camera[2]),
+                                "three perpendicular axes of length 1");
+            }
+        }
+    }
+}
+
+}  // namespace
+
+glm::dmat3 camera_axes(const glm::dvec3& euler_xyz) {
+    require_finite("camera rotation", euler_xyz);
+    const glm::dvec3 c = glm::cos(euler_xyz);
+    const glm::dvec3 s = glm::sin(euler_xyz);
+    // About X first, then Y, then Z; a camera of rotation 0 looks along -Z with +Y up.
+    const glm::dmat3 about_x{{1.0, 0.0, 0.0}, {0.0, c.x, s.x}, {0.0, -s.x, c.x}};
+    const glm::dmat3 about_y{{c.y, 0.0, -s.y}, {0.0, 1.0, 0.0}, {s.y, 0.0, c.y}};
+    const glm::dmat3 about_z{{c.z, s.z, 0.0}, {-s.z, c.z, 0.0}, {0.0, 0.0, 1.0}};
+    return about_z * about_y * about_x;
+}
+
+StudioLight read_studio_light(const std::filesystem::path& path, const glm::dmat3& camera) {
+    require_orthonormal(camera);
+    const StudioLightText text(path);
+    StudioLight studio;
+    if (text.color("light_ambient") != glm::dvec3(0.0)) {
+        studio.notes.emplace_back("its ambient light was left out: it comes from no lamp");
+    }
+    bool soft = false;
+    for (int i = 0; i < lamp_count; ++i) {
+        const std::string name = "light[" + std::to_string(i) + "]";
+        const glm::dvec3 color = text.color(name + ".col");
+        const glm::dvec3 towards = text.vector(name + ".vec");
+        const double flag = text.number(name + ".flag");
+        const double smooth = text.number(name + ".smooth");
+        if (flag == 0.0) continue;
+        if (towards == glm::dvec3(0.0))
+            refuse_file(path, "has length 0 and the lamp is on", remedy, "key " + name + ".vec");
+        soft = soft || smooth != 0.0;
+        Light light;
+        light.kind = LightKind::sun;
+        light.name = name;
+        light.color = color;
+        light.direction = -(camera * towards);
+        light.power = studio_light_power;
+        studio.lights.push_back(light);
+    }
+    if (soft)
+        studio.notes.emplace_back("its lamps' smooth (light that wraps around) was left out: suns have none");
+    return studio;
+}
+
+}  // namespace skinglow

@@ -1,0 +1,57 @@
+#include "skin/base_lut.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "numerics/argument_check.h"
+
+namespace skinglow {
+
+LutAxis::LutAxis(std::size_t size, double max_thickness_mm)
+    : size_(size), max_thickness_mm_(require_positive("max_thickness_mm", max_thickness_mm)) {
+    if (size < 1 || size > max_lut_size) {
+        refuse_argument("table size", std::to_string(size),
+                        "1 to " + std::to_string(max_lut_size) + " entries");
+    }
+}
+
+double LutAxis::thickness_mm(std::size_t i) const {
+    return size_ == 1 ? 0.0 : max_thickness_mm_ * (static_cast<double>(i) / static_cast<double>(size_ - 1));
+}
+
+std::vector<double> LutAxis::thickness_mm() const {
+    std::vector<double> thickness(size_);
+    for (std::size_t i = 0; i < size_; ++i) thickness[i] = thickness_mm(i);
+    return thickness;
+}
+
+double LutAxis::texel_scale() const {
+    return static_cast<double>(size_ - 1) / static_cast<double>(size_) / max_thickness_mm_;
+}
+
+double LutAxis::texel_offset() const {
+    return 0.5 / static_cast<double>(size_);
+}
+
+BaseLut BaseLut::from_gray(std::span<const double> gray, double max_thickness_mm) {
+    std::vector<glm::dmat3> matrices;
+    matrices.reserve(gray.size());
+    for (const double brightness : gray) {
+        require_not_negative("base lookup entry " + std::to_string(matrices.size()), brightness);
+        matrices.emplace_back(brightness);  // GLM: a scalar is that multiple of the identity
+    }
+    return {std::move(matrices), max_thickness_mm};
+}
+
+BaseLut::BaseLut(std::vector<glm::dmat3> matrices, double max_thickness_mm)
+    : axis_(matrices.size(), max_thickness_mm), matrices_(std::move(matrices)) {
+    for (std::size_t i = 0; i < matrices_.size(); ++i) {
+        for (int column = 0; column < 3; ++column) {
+            require_finite("column " + std::to_string(column) + " of base lookup matrix " + std::to_string(i),
+                           matrices_[i][column]);
+        }
+    }
+}
+
+}  // namespace skinglow

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "slab/angular_basis.h"
+#include "slab/slab_solver.h"
+
+namespace skinglow::slab {
+
+/// The directions of a solve, shared by all layers.
+///
+/// A stream keeps n sin(theta) through the whole stack (Snell's law), so that a boundary between two indices
+/// only splits each stream in two, exactly, and no energy is lost to interpolation. Streams are sorted by
+/// that invariant: the first `count(n)` of them exist in a medium of index n, the rest are totally reflected
+/// by it. Between two neighboring indices of the stack lies an interval with a Gauss rule of its own, in the
+/// cosine of the interval's upper index: in that variable both the kink at the critical angle and the Fresnel
+/// reflectance are smooth, and convergence is spectral.
+///
+/// Amplitudes: y = sqrt(W) I / n^2, with W = n^2 w mu the same in every medium. The flux of a stream is
+/// sqrt(W) y (of a hemisphere of unit radiance: W), and all operators on y are symmetric by reciprocity.
+class StreamGrid {
+  public:
+    /// Arguments as for solve_slab, already checked. Normal and oblique beams are given a stream of their
+    /// own.
+    StreamGrid(std::span<const Layer> layers, Incidence incidence, double n_above, double n_below,
+               int streams);
+
+    /// Streams that propagate in a medium of this index.
+    int count(double n) const;
+    /// Cosine of a stream that propagates there.
+    double cosine(int stream, double n) const;
+    /// The cosines of all of them, and the phase function's basis on them; only for an index of a layer.
+    const AngularBasis& basis(double n) const { return bases_.at(n); }
+
+    int size() const { return static_cast<int>(streams_.size()); }
+    double flux_weight(int stream) const { return streams_[static_cast<std::size_t>(stream)].flux_weight; }
+    /// sqrt(W) of the first streams: its product with an amplitude is the flux.
+    const Eigen::VectorXd& root_flux_weight() const { return root_flux_weight_; }
+
+    /// Amplitudes above the first layer that carry the incident flux of 1. Diffuse light from an index above
+    /// all the layers' is partly left out: what total reflection sends straight back, `reflected_outright`.
+    const Eigen::VectorXd& incident() const { return incident_; }
+    double reflected_outright() const { return reflected_outright_; }
+
+    /// True if a grid for these arguments would be this one: what depends on wavelength alone does not count.
+    bool serves(std::span<const Layer> layers, Incidence incidence, double n_above, double n_below,
+                int streams) const;
+
+  private:
+    struct Stream {
+        double interval_index;  // refractive index at the upper end of its interval
+        double cosine;          // in that index
+        double flux_weight;
+    };
+    void add_interval(double n_low, double n_high, int count, bool beam_here, double beam_cosine);
+
+    std::vector<Stream> streams_;
+    Eigen::VectorXd root_flux_weight_;
+    Eigen::VectorXd incident_;
+    double reflected_outright_ = 0;
+    std::map<double, AngularBasis> bases_;
+    std::vector<double> key_;
+};
+
+/// The grid for these arguments; the last one used on this thread is kept, since the wavelengths of a
+/// spectrum mostly differ in coefficients alone.
+std::shared_ptr<const StreamGrid> stream_grid(std::span<const Layer> layers, Incidence incidence,
+                                              double n_above, double n_below, int streams);
+
+}  // namespace skinglow::slab

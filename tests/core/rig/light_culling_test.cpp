@@ -1,0 +1,188 @@
+#include "rig/light_culling.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+
+#include "random_lights.h"
+#include "rig/irradiance.h"
+
+using namespace skinglow;
+
+namespace {
+
+Box random_box(RandomScene& random) {
+    const glm::dvec3 middle = random.unit_vector() * random.decades(0.01, 30.0);
+    const glm::dvec3 half = random.in_box(glm::dvec3(0.0), glm::dvec3(random.decades(0.001, 3.0)));
+    return {middle - half, middle + half};
+}
+
+double largest(const glm::dvec3& v) {
+    return std::max({v.r, v.g, v.b});
+}
+
+}  // namespace
+
+TEST(LightBounds, HoldForEveryPointAndNormal) {
+    RandomScene random(11);
+    for (int trial = 0; trial < 3000; ++trial) {
+        Light light = random.light();
+        light.power = 1;
+        light.color = glm::dvec3(1.0);
+        const Box box = random_box(random);
+        if (random.one_in(10)) light.position = random.in_box(box.min, box.max);
+        const IrradianceRange range = irradiance_range(PreparedLight(light), box);
+        for (int i = 0; i < 8; ++i) {
+            glm::dvec3 point = random.in_box(box.min, box.max);
+            if (random.one_in(3))
+                point = {random.one_in(2) ? box.min.x : box.max.x, random.one_in(2) ? box.min.y : box.max.y,
+                         random.one_in(2) ? box.min.z : box.max.z};
+            const double facing = object_irradiance({&light, 1}, point).r;
+            EXPECT_LE(facing, range.max) << to_text(light.kind) << " " << trial;
+            EXPECT_GE(facing, range.min) << to_text(light.kind) << " " << trial;
+            EXPECT_LE(irradiance(light, point, random.unit_vector()).r, range.max)
+                << to_text(light.kind) << " " << trial;
+        }
+    }
+}
+
+TEST(LightBounds, AreTightForSmallObjects) {
+    RandomScene random(12);
+    int tight = 0;
+    int lit = 0;
+    for (int trial = 0; trial < 1000; ++trial) {
+        Light light = random.light();
+        light.power = 1;
+        light.color = glm::dvec3(1.0);
+        light.radius = std::min(light.radius, 0.01);
+        light.size_x = std::min(light.size_x, 0.01);
+        light.size_y = std::min(light.size_y, 0.01);
+        light.position = random.unit_vector() * random.between(1.0, 5.0);
+        const double facing = object_irradiance({&light, 1}, glm::dvec3(0.0)).r;
+        if (facing < 1e-6) continue;
+        ++lit;
+        const IrradianceRange range =
+            irradiance_range(PreparedLight(light), {glm::dvec3(-1e-3), glm::dvec3(1e-3)});
+        if (range.max < 1.1 * facing && range.min > 0.9 * facing) ++tight;
+    }
+    EXPECT_GT(lit, 300);
+    EXPECT_GT(tight, 0.9 * lit);
+}
+
+TEST(LightBounds, ObjectWeightErrorHolds) {
+    RandomScene random(13);
+    for (int trial = 0; trial < 200; ++trial) {
+        const std::vector<Light> lights = random.lights(6);
+        const Box box = random_box(random);
+        const glm::dvec3 middle = box.center();
+        const glm::dvec3 error = object_irradiance_error(lights, middle, box);
+        const glm::dvec3 here = object_irradiance(lights, middle);
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 there = object_irradiance(lights, random.in_box(box.min, box.max));
+            EXPECT_LE(std::abs(there.g - here.g), error.g * (1 + 1e-12)) << trial;
+        }
+    }
+}
+
+TEST(LightCulling, BoundIsNeverExceeded) {
+    RandomScene random(14);
+    std::size_t dropped_in_all = 0;
+    for (int trial = 0; trial < 400; ++trial) {
+        const std::vector<Light> lights = random.lights(1 + static_cast<int>(random.between(0, 120)));
+        const Box box = random_box(random);
+        const double tolerance = random.decades(1e-6, 10.0);
+        const CullingResult result = LightTree(lights).cull(box, tolerance);
+        EXPECT_LE(largest(result.bound), tolerance);
+
+        std::set<std::size_t> seen(result.kept.begin(), result.kept.end());
+        std::vector<Light> dropped;
+        for (const DroppedLights& group : result.dropped) {
+            for (const std::size_t index : group.lights) {
+                EXPECT_TRUE(seen.insert(index).second) << "lamp " << index << " twice";
+                dropped.push_back(lights[index]);
+            }
+        }
+        EXPECT_EQ(seen.size(), lights.size());
+        dropped_in_all += dropped.size();
+        for (int i = 0; i < 4; ++i) {
+            const glm::dvec3 point = random.in_box(box.min, box.max);
+            const glm::dvec3 facing = object_irradiance(dropped, point);
+            EXPECT_LE(largest(glm::abs(facing)), largest(result.bound) + 1e-15) << trial;
+            const glm::dvec3 normal = random.unit_vector();
+            glm::dvec3 surface(0.0);
+            for (const Light& light : dropped) surface += irradiance(light, point, normal);
+            for (int c = 0; c < 3; ++c) EXPECT_LE(std::abs(surface[c]), result.bound[c] + 1e-15) << trial;
+        }
+    }
+    EXPECT_GT(dropped_in_all, 5000U);  // the property is not empty
+}
+
+TEST(LightCulling, WithoutToleranceOnlyWhatGivesNothingGoes) {
+    RandomScene random(15);
+    std::vector<Light> lights = random.lights(300);
+    lights[3].visible = false;
+    const Box box{glm::dvec3(-0.2), glm::dvec3(0.2)};
+    const CullingResult result = LightTree(lights).cull(box, 0.0);
+    EXPECT_EQ(result.bound, glm::dvec3(0.0));
+    std::size_t unreachable = 0;
+    for (const DroppedLights& group : result.dropped) {
+        EXPECT_NE(group.reason, DropReason::negligible);
+        if (group.reason == DropReason::off) {
+            EXPECT_EQ(group.lights, std::vector<std::size_t>{3});
+        }
+        if (group.reason != DropReason::unreachable) continue;
+        for (const std::size_t index : group.lights) {
+            ++unreachable;
+            EXPECT_EQ(object_irradiance({&lights[index], 1}, random.in_box(box.min, box.max)),
+                      glm::dvec3(0.0));
+        }
+    }
+    EXPECT_GT(unreachable, 20U);
+}
+
+TEST(LightCulling, KeepsTheFewThatMatterOfManyThousands) {
+    std::vector<Light> lights(10000);
+    RandomScene random(16);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        lights[i].position =
+            random.unit_vector() * (i < 100 ? random.between(1.0, 2.0) : random.between(50.0, 100.0));
+        lights[i].power = i < 100 ? 100 : 0.01;
+    }
+    const CullingResult result = LightTree(lights).cull({glm::dvec3(-0.1), glm::dvec3(0.1)}, 0.01);
+    ASSERT_EQ(result.kept.size(), 100U);
+    for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(result.kept[i], i);
+}
+
+TEST(LightCulling, EdgeCases) {
+    const Box box{glm::dvec3(0.0), glm::dvec3(0.0)};
+    EXPECT_TRUE(LightTree({}).cull(box, 1.0).kept.empty());
+    EXPECT_THROW(LightTree({}).cull(box, -1.0), std::invalid_argument);
+    EXPECT_THROW(LightTree({}).cull({glm::dvec3(1.0), glm::dvec3(0.0)}, 1.0), std::invalid_argument);
+    const std::vector<Light> one_place(10000);
+    EXPECT_EQ(LightTree(one_place).cull(box, 1.0).kept.size(), 10000U);
+    EXPECT_EQ(LightTree(one_place).cull({glm::dvec3(9.0), glm::dvec3(10.0)}, 1e6).kept.size(), 0U);
+}
+
+TEST(LightCulling, IdenticalLampsBecomeOne) {
+    RandomScene random(17);
+    std::vector<Light> lights;
+    const Light a = random.light();
+    Light b = random.light();
+    b.position += glm::dvec3(0.1);
+    for (int i = 0; i < 500; ++i) {
+        lights.push_back(random.one_in(2) ? a : b);
+        lights.back().power = random.decades(0.1, 10.0) * (random.one_in(4) ? -1 : 1);
+        lights.back().color = random.in_box(glm::dvec3(0.0), glm::dvec3(1.0));
+    }
+    const std::vector<Light> merged = merge_identical(lights);
+    EXPECT_LE(merged.size(), 4U);
+    const glm::dvec3 point(0.2, 0.1, -0.3);
+    const glm::dvec3 all = object_irradiance(lights, point);
+    const glm::dvec3 few = object_irradiance(merged, point);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(few[c], all[c], 1e-11 * (std::abs(all[c]) + 1));
+}

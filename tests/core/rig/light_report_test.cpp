@@ -1,0 +1,78 @@
+#include "rig/light_report.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+using namespace skinglow;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Light lamp(LightKind kind, const glm::dvec3& position, const glm::dvec3& direction = {0, 0, -1}) {
+    Light light;
+    light.kind = kind;
+    light.position = position;
+    light.direction = direction;
+    light.power = 10;
+    return light;
+}
+
+}  // namespace
+
+TEST(LightReport, TellsDistanceAnglesWeightAndShare) {
+    std::vector<Light> lights = {lamp(LightKind::point, {0, 0, 2}),
+                                 lamp(LightKind::spot, {1, 0, 1}, {-1, 0, -1}),
+                                 lamp(LightKind::point, {0, 0, -2})};
+    lights[0].name = "Key";
+    const std::vector<LightReportEntry> report = light_report(lights, glm::dvec3(0.0), glm::dvec3(0, 0, 1));
+    EXPECT_EQ(report[0].name, "Key");
+    EXPECT_EQ(report[0].distance, 2.0);
+    EXPECT_NEAR(*report[0].normal_angle, 0.0, 1e-12);
+    EXPECT_NEAR(report[0].weight.r, 10 / (16 * pi), 1e-12);
+    EXPECT_NEAR(report[1].distance, std::sqrt(2.0), 1e-12);
+    EXPECT_NEAR(*report[1].normal_angle, pi / 4, 1e-12);
+    EXPECT_NEAR(report[1].axis_angle, 0.0, 1e-7);
+    EXPECT_EQ(report[2].state, LightState::behind);
+    EXPECT_NEAR(report[0].share + report[1].share, 1.0, 1e-12);
+    EXPECT_NEAR(report[0].share / report[1].share, report[0].weight.r / report[1].weight.r, 1e-12);
+}
+
+TEST(LightReport, NamesEveryReason) {
+    std::vector<Light> lights(11, lamp(LightKind::point, {0, 0, 2}));
+    lights[1].visible = false;
+    lights[2].power = 0;
+    lights[3].color = glm::dvec3(0.0);
+    lights[4] = lamp(LightKind::spot, {0, 0, 2}, {1, 0, 0});
+    lights[5] = lamp(LightKind::spot, {0, 0, 2});
+    lights[5].spot_angle = 0;
+    lights[6] = lamp(LightKind::area, {0, 0, 2}, {0, 0, 1});
+    lights[7] = lamp(LightKind::area, {5, 0, 2});
+    lights[7].spread = 0.5;
+    lights[10].position = {0, 0, 1e200};
+    std::vector<bool> occluded(lights.size());
+    occluded[8] = true;
+    const std::vector<std::size_t> kept = {0, 1, 2, 3, 4, 5, 6, 7, 8, 10};
+    const std::vector<LightReportEntry> report =
+        light_report(lights, glm::dvec3(0.0), std::nullopt, occluded, kept);
+    const std::vector<std::string> expected = {"shines",       "hidden",   "zero power",  "black",
+                                               "outside cone", "no width", "behind lamp", "outside cone",
+                                               "occluded",     "culled",   "too weak"};
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ(to_text(report[i].state), expected[i]) << i;
+        EXPECT_EQ(report[i].share, i == 0 ? 1.0 : 0.0) << i;
+        EXPECT_EQ(report[i].normal_angle, std::nullopt);
+    }
+}
+
+TEST(LightReport, RefusesWhatDoesNotFit) {
+    const std::vector<Light> lights(2, lamp(LightKind::point, {0, 0, 2}));
+    EXPECT_TRUE(light_report({}, glm::dvec3(0.0)).empty());
+    EXPECT_THROW(light_report(lights, glm::dvec3(0.0), glm::dvec3(0.0)), std::invalid_argument);
+    EXPECT_THROW(light_report(lights, glm::dvec3(0.0), std::nullopt, {true}), std::invalid_argument);
+    EXPECT_THROW(light_report(lights, glm::dvec3(0.0), std::nullopt, {}, std::vector<std::size_t>{2}),
+                 std::invalid_argument);
+}

@@ -1,0 +1,161 @@
+#include "rig/surface_irradiance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <stdexcept>
+
+#include "random_lights.h"
+
+using namespace skinglow;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+struct Surface {
+    std::vector<glm::dvec3> points;
+    std::vector<glm::dvec3> normals;
+};
+
+Surface random_surface(RandomScene& random, std::size_t count) {
+    Surface surface;
+    for (std::size_t i = 0; i < count; ++i) {
+        surface.points.push_back(random.in_box(glm::dvec3(-0.5), glm::dvec3(0.5)));
+        surface.normals.push_back(random.unit_vector() * random.decades(0.01, 100));
+    }
+    return surface;
+}
+
+}  // namespace
+
+TEST(SurfaceIrradiance, IsTheSumOfIrradianceForEveryKindAndPlace) {
+    RandomScene random(7);
+    for (int trial = 0; trial < 60; ++trial) {
+        const Surface surface = random_surface(random, 300);
+        const Light light = random.light();
+        const std::vector<glm::dvec3> all = surface_irradiance({&light, 1}, surface.points, surface.normals);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const glm::dvec3 one = irradiance(light, surface.points[i], surface.normals[i]);
+            const double scale =
+                std::abs(object_irradiance({&light, 1}, surface.points[i]).g) + std::abs(one.g);
+            EXPECT_NEAR(all[i].g, one.g, 1e-8 * scale + 1e-13)
+                << to_text(light.kind) << " " << trial << " " << i;
+        }
+    }
+}
+
+TEST(SurfaceIrradiance, AddsLampsAndEnvironmentOnAnyNumberOfThreads) {
+    RandomScene random(8);
+    const Surface surface = random_surface(random, 1000);
+    const std::vector<Light> lights = random.lights(20);
+    const Environment environment(glm::dvec3(0.1, 0.2, 0.3));
+    SurfaceOptions options{.environment = &environment, .threads = 1};
+    const std::vector<glm::dvec3> alone =
+        surface_irradiance(lights, surface.points, surface.normals, options);
+    options.threads = 4;
+    EXPECT_EQ(surface_irradiance(lights, surface.points, surface.normals, options), alone);
+    glm::dvec3 expected(pi * 0.1, pi * 0.2, pi * 0.3);
+    for (const Light& light : lights) expected += irradiance(light, surface.points[17], surface.normals[17]);
+    EXPECT_NEAR(alone[17].b, expected.b, 1e-9 * std::abs(expected.b) + 1e-9);
+}
+
+TEST(SurfaceIrradiance, FarSideIsBehindTheVertexAndFacesAway) {
+    Light light;
+    light.power = 4 * pi;
+    light.position = {0, 0, -3};
+    const std::vector<glm::dvec3> vertices = {{0, 0, 1}, {0, 0, 1}};
+    const std::vector<glm::dvec3> normals = {{0, 0, 5}, {0, 0, -5}};
+    const std::vector<double> depth = {2.0, 2.0};
+    const std::vector<glm::dvec3> values = far_side_irradiance({&light, 1}, vertices, normals, depth);
+    EXPECT_NEAR(values[0].r, 1.0 / 4, 1e-14);  // from z = -1, looking down
+    EXPECT_EQ(values[1].r, 0.0);               // from z = 3, looking up
+    EXPECT_EQ(far_side_irradiance({&light, 1}, vertices, normals, std::vector<double>{2.0}), values);
+}
+
+TEST(SurfaceIrradiance, NothingInNothingOutAndBadInputIsNamed) {
+    EXPECT_TRUE(surface_irradiance({}, {}, {}).empty());
+    const std::vector<glm::dvec3> one = {glm::dvec3(0.0)};
+    const Light light;
+    EXPECT_EQ(surface_irradiance({&light, 1}, one, one)[0], glm::dvec3(0.0));  // a normal of 0 faces nowhere
+    EXPECT_THROW(surface_irradiance({}, one, {}), std::invalid_argument);
+    EXPECT_THROW(far_side_irradiance({}, one, one, std::vector<double>{-1.0}), std::invalid_argument);
+    try {
+        surface_irradiance({}, std::vector<glm::dvec3>{{0, 0, 0}, {0, NAN, 0}},
+                           std::vector<glm::dvec3>(2, {0, 0, 1}));
+        FAIL() << "NaN was taken";
+    } catch (const std::invalid_argument& error) {
+        EXPECT_EQ(std::string(error.what()), "points[1] is (0, nan, 0); allowed: three finite numbers");
+    }
+}
+
+TEST(AngularWeight, LightOfAWideLampCountsByTheAnglesOfItsParts) {
+    // Steep enough to tell the middle of the lamp from its rim.
+    const AngularWeight weight(std::vector<double>{0.0, 1.0}, std::vector<double>{0.0, 1.0});
+    std::vector<glm::dvec3> points;
+    std::vector<glm::dvec3> normals;
+    for (int i = 0; i < 12; ++i) {
+        points.emplace_back(0.05 * i, 0.0, 0.01 * i);
+        normals.push_back(glm::normalize(glm::dvec3(std::sin(0.4 * i), 0.3, 1.0)));
+    }
+    const SurfaceOptions options{.angular_weight = &weight};
+    for (const double height : {0.4, 1.5, 12.0}) {
+        Light whole;
+        whole.kind = LightKind::area;
+        whole.position = {0, 0, height};
+        whole.direction = {0, 0, -1};
+        whole.tangent = {1, 0, 0};
+        whole.size_x = 0.8;
+        whole.size_y = 0.6;
+        constexpr int across = 30;
+        std::vector<Light> parts(across * across, whole);
+        for (int i = 0; i < across * across; ++i) {
+            Light& part = parts[static_cast<std::size_t>(i)];
+            part.size_x /= across;
+            part.size_y /= across;
+            part.power /= across * across;
+            part.position.x += whole.size_x * ((i % across + 0.5) / across - 0.5);
+            part.position.y += whole.size_y * ((i / across + 0.5) / across - 0.5);
+        }
+        const auto at_once = surface_irradiance({&whole, 1}, points, normals, options);
+        const auto in_parts = surface_irradiance(parts, points, normals, options);
+        double largest = 0;
+        for (const glm::dvec3& e : in_parts) largest = std::max(largest, e.r);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            EXPECT_NEAR(at_once[i].r, in_parts[i].r, 5e-3 * largest) << "height " << height << " place " << i;
+        }
+    }
+}
+
+TEST(AngularWeight, KeepsDiffuseLightAndTurnsTheRest) {
+    const std::vector<double> mu = {0.0, 0.25, 1.0};
+    const std::vector<double> transmittance = {0.1, 0.4, 0.5};
+    const AngularWeight weight(mu, transmittance);
+    EXPECT_NEAR(weight.band_factors()[0].r, pi, 1e-12);
+    EXPECT_NEAR(weight.at(1.0).r / weight.at(0.25).r, 0.5 / 0.4, 1e-12);
+    double diffuse = 0;
+    constexpr int steps = 4000;
+    for (int i = 0; i < steps; ++i) {
+        const double x = (i + 0.5) / steps;
+        diffuse += 2 * x * weight.at(x).g / steps;
+    }
+    EXPECT_NEAR(diffuse, 1.0, 1e-6);
+    const Environment even(glm::dvec3(2.0));
+    EXPECT_NEAR(even.irradiance({0, 0, 1}, &weight).b, 2 * pi, 1e-12);
+
+    Light light;
+    light.position = {0, 0, 1};
+    const std::vector<glm::dvec3> point = {glm::dvec3(0.0)};
+    const std::vector<glm::dvec3> normal = {{0, std::sqrt(0.91), 0.3}};
+    const double plain = surface_irradiance({&light, 1}, point, normal)[0].r;
+    const double weighted = surface_irradiance({&light, 1}, point, normal, {.angular_weight = &weight})[0].r;
+    EXPECT_NEAR(weighted / plain, weight.at(0.3).r, 1e-12);
+    const AngularWeight flat(std::vector<double>{0.5}, std::vector<double>{7.0});
+    EXPECT_NEAR(surface_irradiance({&light, 1}, point, normal, {.angular_weight = &flat})[0].r, plain, 1e-15);
+    EXPECT_THROW(AngularWeight(mu, std::vector<double>{1.0, 2.0}), std::invalid_argument);
+    EXPECT_THROW(AngularWeight(mu, std::vector<double>(3, 0.0)), std::invalid_argument);
+    EXPECT_THROW(AngularWeight(std::vector<double>{0.5, 0.5}, std::vector<double>{1.0, 2.0}),
+                 std::invalid_argument);
+}
