@@ -27,7 +27,7 @@ gather_licenses() {
 # What wheels are made of; they are made again when it changes.
 wheel_digest() {
     {
-        find CMakeLists.txt pyproject.toml README.md core python_bindings -type f ! -path '*__pycache__*' ! -path 'core/cli/*' -print0 |
+        find CMakeLists.txt pyproject.toml README.md core python_bindings -type f ! -path '*__pycache__*' ! -path 'core/src/cli/*' -print0 |
             sort -z | xargs -0 sha256sum
         cat "$portable/embree/digest" "$steps"/*.cmake "$steps/exported_symbols.map" "$steps/wheels.sh"
         "$1" --version

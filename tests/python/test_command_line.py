@@ -12,7 +12,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 DATA = ROOT / "tests" / "data"
-PROGRAM = Path(os.environ.get("SKINGLOW_CLI", ROOT / "build/release/core/cli/skinglow"))
+PROGRAM = Path(os.environ.get("SKINGLOW_CLI", ROOT / "build/release/bin/skinglow"))
 COMMANDS = ("weights", "lut", "rig", "thickness", "povray", "compare")
 
 

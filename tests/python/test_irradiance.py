@@ -195,7 +195,7 @@ def test_mirror_ball_of_one_color_and_what_lies_outside_it():
         (lambda: sg.Environment((1, 1, 1)).rotated(2 * np.eye(3)), "orthogonal"),
         (lambda: sg.Environment((1, 1, 1)).rotated(np.eye(3)[:2]), r"shape \(3, 3\)"),
         (lambda: sg.AngularWeight([0, 1], [0, 0]), "above 0"),
-        (lambda: sg.LightTree([]).cull((1, 0, 0), (0, 1, 1), 1), "box least"),
+        (lambda: sg.LightTree([]).cull((1, 0, 0), (0, 1, 1), 1), "box min"),
         (lambda: sg.black_body_color(10), "800 to 20000 K"),
     ],
 )

@@ -9,7 +9,7 @@ import pytest
 import skinglow as sg
 
 ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = Path(os.environ.get("SKINGLOW_CLI", ROOT / "build/release/core/cli/skinglow"))
+PROGRAM = Path(os.environ.get("SKINGLOW_CLI", ROOT / "build/release/bin/skinglow"))
 RIG = ROOT / "tests" / "data" / "table1.json"
 
 
