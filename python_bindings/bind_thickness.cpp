@@ -46,7 +46,7 @@ py::array thickness_of_arrays(py::handle vertices, py::handle triangles, double 
 namespace skinglow {
 
 void bind_thickness(py::module_& m) {
-    py::register_exception<ThicknessCancelled>(m, "ThicknessCancelled", PyExc_RuntimeError);
+    py::register_local_exception<ThicknessCancelled>(m, "ThicknessCancelled", PyExc_RuntimeError);
     m.attr("DEFAULT_RAYS") = ThicknessOptions{}.rays;
     m.attr("DEFAULT_CONE_HALF_ANGLE") = ThicknessOptions{}.cone_half_angle;
     m.def("thickness", &thickness_of_arrays, "vertices"_a, "triangles"_a, "unit_mm"_a, "rays"_a,

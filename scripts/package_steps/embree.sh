@@ -4,26 +4,17 @@ embree_version=3.13.5
 embree_source="embree_$embree_version+dfsg.orig.tar.xz"
 embree_sha256=1b7c5b6144230ad81b92ece884a2017fbbb433bf5416a6fca9257e0109501c63
 
-# Triangles and single rays are all that skinglow asks for, by the one instruction set of all machines that Blender runs on.
+# Skinglow traces single rays against triangles, with occlusion filters, which Embree ignores without a word where they are not
+# compiled in. SSE 4.2 is the one instruction set of all machines that Blender runs on.
 embree_options=(-DEMBREE_STATIC_LIB=ON -DEMBREE_TASKING_SYSTEM=INTERNAL -DEMBREE_IGNORE_CMAKE_CXX_FLAGS=OFF -DEMBREE_MAX_ISA=NONE
-    -DEMBREE_ISA_SSE42=ON)
+    -DEMBREE_ISA_SSE42=ON -DEMBREE_FILTER_FUNCTION=ON)
 for name in ISA_{SSE2,AVX,AVX2,AVX512} GEOMETRY_{QUAD,CURVE,SUBDIVISION,USER,INSTANCE,GRID,POINT} \
-    RAY_PACKETS FILTER_FUNCTION STACK_PROTECTOR ISPC_SUPPORT TUTORIALS; do
+    RAY_PACKETS STACK_PROTECTOR ISPC_SUPPORT TUTORIALS; do
     embree_options+=("-DEMBREE_$name=OFF")
 done
 embree_unused=(scene_user_geometry scene_instance scene_quad_mesh scene_curves scene_line_segments scene_grid_mesh scene_points
     rtcore_builder motion_derivative bezier_curve bspline_curve catmullrom_curve instance_intersector bvh_builder_hair
     bvh_builder_hair_mb 'curve_intersector_virtual_[a-z0-9_]*')
-
-# Debian's source package, from this machine's own mirror; a wrong digest is an error.
-fetch_embree() {
-    local folder
-    folder=$(apt-get download --print-uris libembree-dev 2>/dev/null | sed -n "s/^'\(.*\/\)[^/]*' .*/\1/p")
-    [ -n "$folder" ] || fail "apt-get does not say where libembree-dev comes from: run 'apt-get update'"
-    /usr/lib/apt/apt-helper download-file "$folder$embree_source" "$portable/$embree_source" \
-        "SHA256:$embree_sha256" >"$portable/embree_fetch.log" 2>&1 ||
-        { tail -n 5 "$portable/embree_fetch.log" >&2; fail "could not fetch $embree_source; put it into $portable by hand"; }
-}
 
 unpack_embree() {
     rm -rf "$portable/embree_source"
@@ -44,7 +35,7 @@ build_embree() {
     local want
     want=$(cat "$steps/embree.sh" "$steps/portable_linux.cmake" "$portable/tools/requirements" | sha256sum)
     [ "$(cat "$portable/embree/digest" 2>/dev/null)" != "$want" ] || return 0
-    [ -e "$portable/$embree_source" ] || fetch_embree
+    fetch_source libembree-dev "$embree_source" "$embree_sha256"
     say "building Embree $embree_version"
     unpack_embree
     rm -rf "$portable/embree_build" "$portable/embree"

@@ -18,6 +18,7 @@ gather_licenses() {
     rm -rf "$portable/licenses"
     mkdir -p "$portable/licenses"
     cp "$portable/embree_source/LICENSE.txt" "$portable/licenses/embree.txt"
+    cp "$portable/highway_source/LICENSE" "$portable/licenses/highway.txt"
     cp "$portable"/tools/pybind11-*.dist-info/licenses/LICENSE "$portable/licenses/pybind11.txt"
     cp /usr/share/doc/libglm-dev/copyright "$portable/licenses/glm.txt"
     cp /usr/share/doc/libeigen3-dev/copyright "$portable/licenses/eigen.txt"
@@ -29,7 +30,7 @@ wheel_digest() {
     {
         find CMakeLists.txt pyproject.toml README.md core python_bindings -type f ! -path '*__pycache__*' ! -path 'core/src/cli/*' -print0 |
             sort -z | xargs -0 sha256sum
-        cat "$portable/embree/digest" "$steps"/*.cmake "$steps/exported_symbols.map" "$steps/wheels.sh"
+        cat "$portable"/{embree,highway}/digest "$steps"/*.cmake "$steps/exported_symbols.map" "$steps/wheels.sh"
         "$1" --version
     } | sha256sum
 }
@@ -47,7 +48,7 @@ build_wheel() {
     # One build folder for all versions: the core does not depend on Python and is compiled once. What the compiler is
     # told is kept in it from the first time on.
     local told setting
-    told=$(cat "$portable/embree/digest" "$steps"/*.cmake | sha256sum)
+    told=$(cat "$portable"/{embree,highway}/digest "$steps"/*.cmake | sha256sum)
     [ "$(cat "$portable/skinglow_build/told" 2>/dev/null)" = "$told" ] || rm -rf "$portable/skinglow_build"
     mkdir -p "$portable/skinglow_build"
     printf '%s' "$told" >"$portable/skinglow_build/told"
@@ -55,7 +56,8 @@ build_wheel() {
     for setting in SKINGLOW_RAYS=ON SKINGLOW_LICENSES="$portable/licenses" \
         CMAKE_TOOLCHAIN_FILE="$steps/portable_linux.cmake" CMAKE_PROJECT_skinglow_INCLUDE="$steps/portable_modules.cmake" \
         CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES="$portable/headers/debian" CMAKE_INTERPROCEDURAL_OPTIMIZATION=OFF \
-        glm_DIR="$portable/headers/glm" nlohmann_json_DIR="$portable/headers/nlohmann_json" embree_DIR="$portable/embree/lib/cmake/embree-$embree_version"; do
+        glm_DIR="$portable/headers/glm" nlohmann_json_DIR="$portable/headers/nlohmann_json" \
+        embree_DIR="$portable/embree/lib/cmake/embree-$embree_version" hwy_DIR="$portable/highway/lib/cmake/hwy"; do
         settings+=("cmake.define.$setting")
     done
     # Loading a module looks all its symbols up: what is missing shows here.

@@ -48,12 +48,9 @@ def use():
     found["addon"] = sb.make_skin.__code__.co_filename
     names = ("make_skin", "update", "lut", "render_batch", "batch_main")
     found["functions"] = [name for name in names if not callable(getattr(sb, name))]
-    found |= follow_a_lamp(sg, sb)
-    found["refused"] = [
-        refusal(sg.thickness, [(0, 0, 0)], [(0, 1, 2)]),
-        refusal(sg.attenuation, -1.0),
-        refusal(sg.read_light_rig, "/no/such/rig.json"),
-    ]
+    found["visible"] = follow_a_blocker(sb)
+    found |= follow_a_light(sg, sb)
+    found["refused"] = refusals(sg)
     found["rays"] = sys.modules["skinglow._rays"].__file__
     found["render"] = render()
     found["batch"] = batch(sb)
@@ -72,31 +69,91 @@ def listed(value):
     return value if isinstance(value, list) else []
 
 
-def follow_a_lamp(sg, sb):
-    """A ball of 20 mm, measured by rays, and what it shows before and after its lamp moves, by Eq. 1-3."""
+def clear_scene():
     for obj in list(bpy.data.objects):
         bpy.data.objects.remove(obj)
+
+
+def add_ball():
     bpy.ops.mesh.primitive_uv_sphere_add(radius=0.01, segments=48, ring_count=24)
-    obj = bpy.context.object
-    lamp = bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT"))
-    bpy.context.scene.collection.objects.link(lamp)
-    lamp.data.color = (0.25, 0.5, 1.0)
+    return bpy.context.object
+
+
+def add_light(x):
+    light = bpy.data.objects.new("Light", bpy.data.lights.new("Light", "POINT"))
+    light.location, light.data.shadow_soft_size = (x, 0.0, 0.0), 0.0
+    bpy.context.scene.collection.objects.link(light)
+    return light
+
+
+def follow_a_blocker(sb):
+    """What a closed skin sees of its light with Occlusion on, and its brightness: alone, and behind walls.
+
+    It would shadow itself if Embree had no occlusion filters, and fail if the modules did not share the type of lights.
+    """
+    clear_scene()
+    obj, light = add_ball(), add_light(1.0)
+    sb.make_skin(obj, thickness=[3.0] * len(obj.data.vertices), mode="physical")
+    found = {"off": shown_by(sb, obj, light)}
+    bpy.context.scene.skinglow.occlusion = True
+    found["alone"] = shown_by(sb, obj, light)
+    bpy.ops.mesh.primitive_plane_add(size=0.5, location=(0.5, 0.25, 0.0), rotation=(0.0, 1.5707963, 0.0))
+    wall = bpy.context.object
+    found["half"] = shown_by(sb, obj, light)
+    wall.location.y = 0.0
+    found["wall"] = shown_by(sb, obj, light)
+    bpy.context.scene.skinglow.occlusion = False
+    return found
+
+
+def shown_by(sb, obj, light):
+    """The visible share of the light, and the sum of the skin's lookup table."""
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    (row,) = (row for row in sb.light_report(obj, depsgraph) if row["name"] == light.name)
+    return [row["visible"], float(sb.lut(obj, depsgraph).sum())]
+
+
+def follow_a_light(sg, sb):
+    """A ball of 20 mm, measured by rays, and what it shows before and after its light moves, by Eq. 1-3."""
+    clear_scene()
+    obj, light = add_ball(), add_light(0.0)
+    light.data.color = (0.25, 0.5, 1.0)
     state = sb.make_skin(obj, mode="paper", reference_point=(0.0, 0.0, 0.0), max_thickness_mm=24.0)
     found = {"thickness_mm": list(state.thickness_mm), "shown": [], "expected": []}
     for x in (1.0, 3.0):
-        lamp.location = (x, 0.0, 0.0)
+        light.location = (x, 0.0, 0.0)
         bpy.context.view_layer.update()
         found["shown"].append(sb.lut(obj, bpy.context.evaluated_depsgraph_get())[0].tolist())
-        pairs = zip((1.8, 0.5, 0.4), lamp.data.color, strict=True)
+        pairs = zip((1.8, 0.5, 0.4), light.data.color, strict=True)
         weight = [blood + color / (1.0 + x * x) for blood, color in pairs]
         found["expected"].append(sg.recolor(sg.six_gaussian_base(256, 24.0), weight)[0].tolist())
     return found
 
 
-def refusal(function, *arguments):
-    """How a function of the core turns bad arguments down; each module has to know its own exceptions."""
+def refusals(sg):
+    """The exceptions of both modules, each of which has to know its own; [] where there is none."""
+    triangle = ([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)], [(0, 1, 2)])
+    light = sg.Light("POINT", power=1.0, position=(0.0, 0.0, 1.0))
+    point = ([light], [(0.0, 0.0, 0.0)], [(0.0, 0.0, 1.0)])
+    occluders = sg.Occluders([triangle])
+    return {
+        "attenuation": refusal(lambda: sg.attenuation(-1.0)),
+        "file": refusal(lambda: sg.read_light_rig("/no/such/rig.json")),
+        "type in _core": refusal(lambda: sg.attenuation("far")),
+        "thickness": refusal(lambda: sg.thickness([(0, 0, 0)], [(0, 1, 2)])),
+        "type in _rays": refusal(lambda: sg.thickness(*triangle, rays="many")),
+        "raised by progress": refusal(lambda: sg.thickness(*triangle, progress=lambda done: 1 / 0)),
+        "cancelled": refusal(lambda: sg.thickness(*triangle, progress=lambda done: False)),
+        "mesh": refusal(lambda: sg.Occluders([triangle, 5])),
+        "samples": refusal(lambda: occluders.visible_share(*point, samples=0)),
+        "no light": refusal(lambda: occluders.visible_share([5], *point[1:])),
+    }
+
+
+def refusal(function):
     try:
-        function(*arguments)
+        function()
     except Exception as error:
         return [type(error).__name__, str(error)]
     return []
