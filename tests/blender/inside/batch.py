@@ -12,7 +12,6 @@ from skinglow_blender.batch.frames import parse_frames
 from skinglow_blender.batch.manifest import Manifest
 
 from inside.batch_studio import (
-    DATA,
     FRAMES,
     RIGS,
     assert_same,
@@ -148,19 +147,6 @@ def check_what_changed_is_rendered_again(work):
     assert rendered() == ([], set())
 
 
-def check_view_layers_and_motion_blur(work):
-    """The manifest tells of every view layer, and of the frame itself, not of a step of its blur."""
-    scene, obj = studio()
-    scene.view_layers.new("Second")
-    scene.render.use_motion_blur = True
-    obj.keyframe_insert("location", frame=1)
-    sb.render_batch(work / "layers", 2, ["warm"])
-    (entry,) = manifest_of(work / "layers")
-    assert {skin["view_layer"] for skin in entry["skins"]} == {"ViewLayer", "Second"}
-    for skin in entry["skins"]:
-        np.testing.assert_allclose(skin["weight"], color_at("warm", 2) / 2.0, rtol=1e-6)
-
-
 def check_names_of_files(work):
     scene, _ = studio()
     scene.name = "Shot 7"
@@ -170,20 +156,6 @@ def check_names_of_files(work):
     assert names(result.rendered, folder) == ["Shot_7_000002_cold.exr", "Shot_7_000002_warm.exr"], result
     scene.render.image_settings.file_format = "PNG"
     assert names(sb.render_batch(folder, 2, "warm").rendered, folder) == ["warm/0002.png"]
-
-
-def check_scene_is_restored_after_a_fault(work):
-    scene, _ = studio()
-    before = everything()
-
-    def break_down(step):
-        raise ZeroDivisionError(step.state)
-
-    try:
-        sb.render_batch(work / "fault", rigs=[DATA / "table1.json"], progress=break_down)
-        raise AssertionError("the exception was lost")
-    except ZeroDivisionError:
-        assert_same(before)
 
 
 def check_a_picture_that_fails_does_not_stop_the_others(work):

@@ -176,3 +176,30 @@ def check_light_at_each_pixel_has_room_for_every_rig(work):
     assert [e["skins"][0]["weights"] for e in manifest_of(work / "surface")] == ["SURFACE"] * 3
     obj.skinglow.mode, obj.skinglow.weights = "PAPER", "AUTO"
     assert_same(before)
+
+
+def check_view_layers_and_motion_blur(work):
+    """The manifest tells of every view layer, and of the frame itself, not of a step of its blur."""
+    scene, obj = studio()
+    scene.view_layers.new("Second")
+    scene.render.use_motion_blur = True
+    obj.keyframe_insert("location", frame=1)
+    sb.render_batch(work / "layers", 2, ["warm"])
+    (entry,) = manifest_of(work / "layers")
+    assert {skin["view_layer"] for skin in entry["skins"]} == {"ViewLayer", "Second"}
+    for skin in entry["skins"]:
+        np.testing.assert_allclose(skin["weight"], color_at("warm", 2) / 2.0, rtol=1e-6)
+
+
+def check_scene_is_restored_after_a_fault(work):
+    scene, _ = studio()
+    before = everything()
+
+    def break_down(step):
+        raise ZeroDivisionError(step.state)
+
+    try:
+        sb.render_batch(work / "fault", rigs=[DATA / "table1.json"], progress=break_down)
+        raise AssertionError("the exception was lost")
+    except ZeroDivisionError:
+        assert_same(before)

@@ -4,6 +4,7 @@ import math
 
 import bpy
 import numpy as np
+from skinglow_blender import world_image
 
 #: Normals of the plane on which a world is measured: the axes' sides and between them.
 NORMALS = ((0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (-0.48, 0.6, 0.64))
@@ -114,3 +115,36 @@ def coded(linear):
 def decoded(code):
     """Linear light of sRGB's code."""
     return np.where(code <= 0.04045, code / 12.92, np.power((code + 0.055) / 1.055, 2.4))
+
+
+def mean_irradiance(colors):
+    """pi times the mean radiance of an equirectangular image, in numpy."""
+    height = len(colors)
+    edges = np.cos(np.pi * np.arange(height + 1) / height)
+    weights = (edges[:-1] - edges[1:]) / 2.0
+    return math.pi * (colors.mean(axis=1) * weights[:, None]).sum(axis=0)
+
+
+class CountedReads:
+    """Counts how often pixels are read."""
+
+    def __enter__(self):
+        self.count, self.original = 0, world_image.linear_pixels
+
+        def counting(image):
+            self.count += 1
+            return self.original(image)
+
+        world_image.linear_pixels = counting
+        return self
+
+    def __exit__(self, *_unused):
+        world_image.linear_pixels = self.original
+
+
+def store(colors, path):
+    """Codes of an 8-bit picture to a PNG, as they are."""
+    image = image_of(colors, "Stored", is_float=False)
+    image.filepath_raw, image.file_format = str(path), "PNG"
+    image.save()
+    bpy.data.images.remove(image)

@@ -6,7 +6,6 @@ import bpy
 import numpy as np
 import skinglow as sg
 import skinglow_blender as sb
-from skinglow_blender import world_image
 
 from inside.scenes import (
     BLOOD,
@@ -20,6 +19,7 @@ from inside.scenes import (
     render_settings,
 )
 from inside.world_scenes import (
+    CountedReads,
     background,
     coded,
     constant_world,
@@ -28,8 +28,10 @@ from inside.world_scenes import (
     image_of,
     image_world,
     mapped,
+    mean_irradiance,
     set_pixels,
     smooth_radiance,
+    store,
     world_tree,
 )
 
@@ -47,34 +49,9 @@ def table(irradiance):
     return sg.recolor(base, np.asarray(irradiance) / math.pi).astype(np.float32)
 
 
-def mean_irradiance(colors):
-    """pi times the mean radiance of an equirectangular image, in numpy."""
-    height = len(colors)
-    edges = np.cos(np.pi * np.arange(height + 1) / height)
-    weights = (edges[:-1] - edges[1:]) / 2.0
-    return math.pi * (colors.mean(axis=1) * weights[:, None]).sum(axis=0)
-
-
 def assert_lit_by(obj, radiance, rtol=1e-5):
     """Lit by this mean radiance, as the handlers left it: nothing is asked for here."""
     np.testing.assert_allclose(sb.lut(obj, depsgraph()), table(math.pi * np.asarray(radiance)), rtol=rtol)
-
-
-class CountedReads:
-    """Counts how often pixels are read."""
-
-    def __enter__(self):
-        self.count, self.original = 0, world_image.linear_pixels
-
-        def counting(image):
-            self.count += 1
-            return self.original(image)
-
-        world_image.linear_pixels = counting
-        return self
-
-    def __exit__(self, *_unused):
-        world_image.linear_pixels = self.original
 
 
 def check_follows_values_and_nodes(_work):
@@ -167,14 +144,6 @@ def check_follows_files(work):
     image.filepath = str(work / "moved.png")
     sb.update(depsgraph())
     assert_lit_by(obj, dim)
-
-
-def store(colors, path):
-    """Codes of an 8-bit picture to a PNG, as they are."""
-    image = image_of(colors, "Stored", is_float=False)
-    image.filepath_raw, image.file_format = str(path), "PNG"
-    image.save()
-    bpy.data.images.remove(image)
 
 
 def check_pixels_are_read_once(work):
