@@ -1,0 +1,67 @@
+"""The rules of the C++ core's layout: floors, public headers, the length of files, the picture of it all."""
+
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+CORE = ROOT / "core"
+sys.path.insert(0, str(ROOT / "scripts" / "architecture_steps"))
+import includes  # noqa: E402
+
+FLOORS = includes.floors(CORE)
+HEADERS = sorted(path.name for path in (CORE / "include" / "skinglow").iterdir())
+LINES = 300
+#: One compiled module has one stub; test_stubs.py keeps it in step with the module.
+LONG = {ROOT / "python_bindings" / "skinglow" / "_core.pyi"}
+
+
+def height(floor: str) -> int:
+    return FLOORS.index(floor)
+
+
+def test_every_folder_of_the_core_is_a_floor() -> None:
+    assert sorted(FLOORS) == sorted(path.name for path in (CORE / "src").iterdir() if path.is_dir())
+
+
+@pytest.mark.parametrize("floor", FLOORS)
+def test_no_include_runs_to_a_higher_floor(floor: str) -> None:
+    files = includes.sources(CORE / "src" / floor)
+    assert files
+    wrong = []
+    for path in files:
+        for name, is_public in includes.included(path):
+            to = includes.PUBLIC[name] if is_public else name.split("/")[0] if "/" in name else floor
+            if height(to) > height(floor):
+                wrong.append(f"{path.relative_to(CORE)} includes {name}, of the higher floor {to}")
+    assert not wrong
+
+
+def test_every_public_header_has_a_floor() -> None:
+    assert set(HEADERS) <= includes.PUBLIC.keys()
+
+
+@pytest.mark.parametrize("name", HEADERS)
+def test_public_header_includes_public_headers_of_its_floor_or_lower(name: str) -> None:
+    path = CORE / "include" / "skinglow" / name
+    for header, is_public in includes.included(path):
+        assert is_public, f"{name} includes the private {header}"
+        assert height(includes.PUBLIC[header]) <= height(includes.PUBLIC[name]), f"{name} includes {header}"
+    # A program that uses the package has GLM and the standard library, not the libraries that the core is made with.
+    others = re.findall(r"#\s*include\s+<((?!skinglow/)[^>]*[/.][^>]*)>", path.read_text())
+    assert not [other for other in others if not other.startswith("glm/")]
+
+
+def test_no_file_is_long() -> None:
+    suffixes = (".h", ".cpp", ".py", ".pyi", ".cmake", ".txt")
+    files = [
+        path
+        for folder in ("core", "python_bindings", "tests")
+        for path in (ROOT / folder).rglob("*")
+        if path.suffix in suffixes and "__pycache__" not in path.parts
+    ]
+    assert len(files) > 100
+    long = {path for path in files if path not in LONG and len(path.read_text().splitlines()) > LINES}
+    assert not {str(path.relative_to(ROOT)) for path in long}
