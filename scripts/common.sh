@@ -69,3 +69,16 @@ make_environment() {
     "$where/bin/pip" install --quiet "$@" || fail "pip could not install: $*"
     printf '%s' "$want" >"$where/requirements"
 }
+
+# install_portable PYTHON: the portable wheel for that Python, of scripts/package, in the environment `portable`, with what
+# its tests and benchmarks need.
+install_portable() {
+    local wheel digest
+    make_environment portable "$1" 'numpy>=1.23' 'pytest>=8,<9' 'hypothesis>=6,<7'
+    wheel=$(ls "$project"/build/packages/skinglow-*-"$("$1" -c 'import sys; print("cp%d%d" % sys.version_info[:2])')"-*.whl)
+    digest=$(sha256sum <"$wheel")
+    if [ "$(cat "$envs/portable/skinglow_digest" 2>/dev/null)" = "$digest" ]; then return; fi
+    say "installing the portable wheel into portable"
+    "$envs/portable/bin/pip" install --quiet --no-deps --no-index --force-reinstall "$wheel"
+    printf '%s' "$digest" >"$envs/portable/skinglow_digest"
+}
