@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Skinglow for Blender: skin that glows in the color of your lights, updated as they change.
 
-As an add-on it is registered by Blender. From a script: `import skinglow_blender as sb` with this folder's parent on
-`sys.path`, then the functions below. Each registers first if need be; `sb.register()` does so for a file whose skins
-are only to be followed.
+As an add-on it is registered by Blender. From a script: `import skinglow_blender as sb` with the parent of this folder
+on `sys.path`, then call the functions below. Each registers the add-on if necessary; call `sb.register()` if the skins
+of a file only have to be kept up to date.
 """
 
 from collections.abc import Callable
@@ -85,7 +85,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Takes back all that `register` did; skins in the file keep the lookups they show."""
+    """Reverts `register`; skins in the file keep the lookups they show."""
     global _registered
     if not _registered:
         return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Blender image as the base lookup: brightness by thickness, thin skin at its left."""
+"""A Blender image as the base lookup: brightness by thickness, thin skin on the left."""
 
 from functools import lru_cache
 from typing import Any
@@ -15,17 +15,19 @@ LUMINANCE = np.array((0.2126, 0.7152, 0.0722))
 
 
 def brightness(colors: np.ndarray) -> np.ndarray:
-    """Luminance of linear Rec.709 colors (n, 3), not below 0, (n,)."""
+    """Luminance of linear Rec.709 colors (n, 3), clamped at 0, (n,)."""
     return np.maximum(colors @ LUMINANCE, 0.0)
 
 
 @lru_cache(maxsize=16)
 def base_of_image(key: tuple) -> Any:  # noqa: ANN401  a skinglow.BaseLut
-    """Each column's mean brightness in linear light. `base_of_image.cache_clear()` after an image was painted."""
+    """Mean linear brightness of each column. Call `base_of_image.cache_clear()` after an image was painted."""
     _kind, _width, max_thickness_mm, name, _colorspace = key
     image = bpy.data.images.get(name)
     if image is None:
-        raise SkinError("The base lookup is set to an image, but none is chosen: choose one, or 'Built-in'")
+        raise SkinError(
+            "The base lookup is set to Image, but no image is selected: select one, or set Base to Built-in"
+        )
     try:
         pixels = linear_pixels(image)
     except SkinError as error:

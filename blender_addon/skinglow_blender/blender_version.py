@@ -1,24 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All that differs between Blender 3.4 and 5.2, so that the rest of the add-on need not ask."""
+"""All differences between Blender 3.4 and 5.2, so that the rest of the add-on is independent of the version."""
 
 import bpy
 import numpy as np
 
 VERSION = bpy.app.version
 
-#: Before 4.0 an area light's watts were spread otherwise, and a wide sun gave less (skinglow.LEGACY_AREA_POWER_FACTOR,
-#: skinglow.legacy_sun_power_factor); the spot's beam fell off by the cosine to its axis besides. Measured with Cycles.
+#: Before 4.0 the power of area lights and wide suns was normalized differently (skinglow.LEGACY_AREA_POWER_FACTOR,
+#: skinglow.legacy_sun_power_factor), and a spot's beam had an additional cosine falloff. Measured with Cycles.
 LEGACY_LIGHT_POWER = VERSION < (4, 0, 0)
 SPOT_HAS_COSINE = VERSION < (4, 0, 0)
 
 
 def eevee_engine() -> str:
-    """The name of the EEVEE that this version has."""
+    """The identifier of this version's EEVEE."""
     return "BLENDER_EEVEE_NEXT" if (4, 2, 0) <= VERSION < (5, 0, 0) else "BLENDER_EEVEE"
 
 
 def new_group_socket(group: bpy.types.NodeTree, name: str, kind: str, in_out: str, description: str) -> None:
-    """Adds a socket to a node group's face; in_out is 'INPUT' or 'OUTPUT'."""
+    """Adds a socket to a node group's interface; in_out is 'INPUT' or 'OUTPUT'."""
     if hasattr(group, "interface"):
         socket = group.interface.new_socket(name, in_out=in_out, socket_type=kind)
     else:
@@ -27,30 +27,30 @@ def new_group_socket(group: bpy.types.NodeTree, name: str, kind: str, in_out: st
 
 
 def shader_tree(owner: bpy.types.ID) -> bpy.types.NodeTree | None:
-    """The node tree that a material, light or world really uses, or None."""
+    """The node tree that a material, light or world uses, or None."""
     if VERSION < (5, 0, 0) and not owner.use_nodes:
         return None
     return owner.node_tree
 
 
 def world_override(layer: bpy.types.ViewLayer) -> bpy.types.World | None:
-    """The world that a view layer has instead of the scene's (4.4)."""
+    """The world that overrides the scene's in a view layer (4.4)."""
     return getattr(layer, "world_override", None)
 
 
 def ensure_shader_tree(material: bpy.types.Material) -> bpy.types.NodeTree:
-    """A material's node tree, made if it has none."""
+    """A material's node tree, created if it has none."""
     if VERSION < (5, 0, 0) and not material.use_nodes:
         material.use_nodes = True
     return material.node_tree
 
 
-#: Cycles finds a material's emission by the paths that happen upon it alone.
+#: The emission of a material is not sampled as a light.
 NO_EMISSION_SAMPLING = "NONE" if VERSION >= (3, 5, 0) else 0
 
 
 def emission_sampling(material: bpy.types.Material) -> str | int | None:
-    """How Cycles samples a material's emission (an option of four from 3.5, on or off before); None without Cycles."""
+    """How Cycles samples a material's emission (an enum since 3.5, on or off before); None without Cycles."""
     cycles = getattr(material, "cycles", None)
     if cycles is None:
         return None
@@ -58,7 +58,7 @@ def emission_sampling(material: bpy.types.Material) -> str | int | None:
 
 
 def set_emission_sampling(material: bpy.types.Material, value: str | int) -> None:
-    """Sets what `emission_sampling` tells."""
+    """Sets a value as returned by `emission_sampling`."""
     cycles = getattr(material, "cycles", None)
     if cycles is None:
         return
@@ -69,7 +69,7 @@ def set_emission_sampling(material: bpy.types.Material, value: str | int) -> Non
 
 
 def socket_named(sockets: bpy.types.bpy_prop_collection, *names: str) -> bpy.types.NodeSocket | None:
-    """The first socket that goes by one of these names: the Principled BSDF's were renamed in 4.0."""
+    """The first socket with one of these names: those of the Principled BSDF were renamed in 4.0."""
     for name in names:
         if name in sockets:
             return sockets[name]
@@ -77,29 +77,29 @@ def socket_named(sockets: bpy.types.bpy_prop_collection, *names: str) -> bpy.typ
 
 
 def light_exposure(light: bpy.types.Light) -> float:
-    """Stops by which a lamp is brightened (4.5); 0 before."""
+    """A light's exposure in stops (4.5); 0 before."""
     return getattr(light, "exposure", 0.0)
 
 
 def light_temperature_color(light: bpy.types.Light) -> tuple[float, float, float] | None:
-    """Linear color of the lamp's temperature where that is in use (4.5)."""
+    """Linear color of a light's temperature, if it uses one (4.5)."""
     if not getattr(light, "use_temperature", False):
         return None
     return tuple(light.temperature_color)
 
 
 def light_is_normalized(light: bpy.types.Light) -> bool:
-    """Whether a lamp's power stays when its size changes (always so before 4.5)."""
+    """Whether a light's power is independent of its size (always before 4.5)."""
     return getattr(light, "normalize", True)
 
 
 def light_casts_shadows(light: bpy.types.Light) -> bool:
-    """Whether objects stop a lamp's light: EEVEE's switch, from 4.2 that of both, and Cycles' own before."""
+    """Whether a light casts shadows: EEVEE's setting, since 4.2 that of both engines, and Cycles' own before."""
     return getattr(light, "use_shadow", True) and getattr(getattr(light, "cycles", None), "cast_shadow", True)
 
 
 def animation_curves(owner: bpy.types.ID, path: str | None = None) -> list[bpy.types.FCurve]:
-    """The curves that animate or drive a data block's own properties, or one of them; actions have layers since 4.4."""
+    """The F-curves and drivers of a data block, or of one of its properties; actions have layers since 4.4."""
     animation = owner.animation_data
     if animation is None:
         return []
@@ -114,18 +114,18 @@ def animation_curves(owner: bpy.types.ID, path: str | None = None) -> list[bpy.t
 
 
 def literal_path(path: str) -> str:
-    """An output path that Blender takes as it stands: from 4.5 on, braces in it are templates."""
+    """An output path that Blender takes literally: since 4.5 braces in it are template variables."""
     return path if VERSION < (4, 5, 0) else path.replace("{", "{{").replace("}", "}}")
 
 
 def light_receivers(obj: bpy.types.Object) -> bpy.types.Collection | None:
-    """The collection of objects a lamp is linked to (4.0); None: it lights all."""
+    """The receiver collection of a light's light linking (4.0); None: it lights all objects."""
     linking = getattr(obj, "light_linking", None)
     return linking.receiver_collection if linking is not None else None
 
 
 def corner_normals(mesh: bpy.types.Mesh) -> np.ndarray:
-    """The shading normal of each face corner, (n_loops, 3) float32, in the mesh's own space."""
+    """The shading normal of each face corner, (n_loops, 3) float32, in object space."""
     normals = np.empty(3 * len(mesh.loops), np.float32)
     if hasattr(mesh, "corner_normals"):
         mesh.corner_normals.foreach_get("vector", normals)

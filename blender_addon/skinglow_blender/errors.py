@@ -1,21 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's one exception, and the compiled core behind a message that says how to get it."""
+"""The add-on's exception, and access to the compiled core with a helpful message if it is missing."""
 
 from types import ModuleType
 
 
 class SkinError(RuntimeError):
-    """Something a person can put right; its text says what, where and how."""
+    """An error that the user can fix; the message says what is wrong, where, and how to fix it."""
 
 
 def core() -> ModuleType:
-    """The Python package `skinglow`, which does all the computing. Raises SkinError where it is missing."""
+    """The Python package `skinglow`, which does all computation. Raises SkinError if it is missing."""
     try:
         import skinglow
     except ImportError as error:
         raise SkinError(
-            "The compiled core, the Python package 'skinglow', cannot be imported into this Blender "
-            f"({error}). Install the add-on from its zip, which holds the core, or the wheel that "
-            "fits this Blender's Python, and restart Blender"
+            f"The compiled core, the Python package 'skinglow', cannot be imported ({error}). Install the add-on from "
+            "its zip, which contains the core, or a wheel for this Blender's Python, and restart Blender"
         ) from error
     return skinglow

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Places on a skin's far side, where the light comes in."""
+"""Sample points on a skin's far side, where light enters."""
 
 from functools import lru_cache
 from typing import NamedTuple
@@ -10,24 +10,24 @@ from mathutils import Matrix
 
 from .errors import core
 from .mesh_reading import evaluated_mesh
-from .scene_reading import MEASURED_UNIT, MM_PER_METER, Skin, grown
+from .scene_reading import MEASURED_UNIT, MM_PER_METER, Skin, scale_since_measured
 from .skin_group import THICKNESS_ATTRIBUTE
 
-#: Places that stand for a skin; docs/accuracy.md has the error by their number.
-PLACES = 256
+#: Samples per skin; docs/accuracy.md has the error by their number.
+MAX_SAMPLES = 256
 
 
 class FarSide(NamedTuple):
-    """World, scene units."""
+    """Sample points in the world, scene units."""
 
     points: np.ndarray  #: (n, 3) float64
-    normals: np.ndarray  #: (n, 3) float64, unit, out of the far side
+    normals: np.ndarray  #: (n, 3) float64, unit, pointing out of the far side
 
 
 def far_side_of(obj: bpy.types.Object, matrix: Matrix, skin: Skin) -> FarSide:
     """Far sides x - d n of some vertices of an evaluated skin object at that world matrix.
 
-    Of those thinner than the lookup's last entry, if there are any: thicker ones let next to nothing through.
+    Prefers vertices thinner than the lookup's last entry: thicker ones let next to nothing through.
     """
     to_world = np.array(matrix, np.float64)
     with evaluated_mesh(obj) as mesh:
@@ -38,27 +38,29 @@ def far_side_of(obj: bpy.types.Object, matrix: Matrix, skin: Skin) -> FarSide:
         thickness_mm = np.empty(count, np.float32)
         attribute.data.foreach_get("value", thickness_mm)
         original = obj.original.data
-        thickness_mm *= grown(original, skin.world_size)
+        thickness_mm *= scale_since_measured(original, skin.world_size)
         thin = np.flatnonzero(thickness_mm < skin.base[2])
-        among = thin if len(thin) else np.arange(count)
-        chosen = among[_some_of(len(among))]
-        # One by one: all normals of a large mesh would take longer than the rays.
+        candidates = thin if len(thin) else np.arange(count)
+        chosen = candidates[_sample_indices(len(candidates))]
+        # One by one: reading all normals of a large mesh would take longer than tracing the rays.
         vertices = np.array([mesh.vertices[i].co for i in chosen.tolist()], np.float64)
         normals = np.array([mesh.vertices[i].normal for i in chosen.tolist()], np.float64)
     depth = thickness_mm[chosen].astype(np.float64) / original.get(MEASURED_UNIT, MM_PER_METER)
     world = vertices @ to_world[:3, :3].T + to_world[:3, 3]
-    # Normals go with the inverse transpose.
-    facing = normals @ np.array(matrix.to_3x3().inverted_safe(), np.float64)
-    return FarSide(*core().far_side(world, facing, depth))
+    # Normals transform by the inverse transpose.
+    world_normals = normals @ np.array(matrix.to_3x3().inverted_safe(), np.float64)
+    return FarSide(*core().far_side(world, world_normals, depth))
 
 
 @lru_cache(maxsize=64)
-def _some_of(count: int) -> np.ndarray:
-    """Indices of at most PLACES of so many things, the same each time.
+def _sample_indices(count: int) -> np.ndarray:
+    """Indices of at most MAX_SAMPLES of `count` vertices, the same each time.
 
-    One anywhere in each of as many stretches: neighbors in a mesh's order mostly are neighbors in space, and even
-    steps could follow a grid's columns. Half the error of so many places taken at random (measured on a scanned head).
+    Stratified: one random index per stratum. Neighbors in a mesh's order mostly are neighbors in space, while equal
+    steps could follow a grid's columns. Half the error of independent random samples (measured on a scanned head).
     """
-    if count <= PLACES:
+    if count <= MAX_SAMPLES:
         return np.arange(count)
-    return ((np.arange(PLACES) + np.random.default_rng(1).random(PLACES)) * count / PLACES).astype(np.int64)
+    return ((np.arange(MAX_SAMPLES) + np.random.default_rng(1).random(MAX_SAMPLES)) * count / MAX_SAMPLES).astype(
+        np.int64
+    )

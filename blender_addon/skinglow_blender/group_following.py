@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Keeps skins and the node groups in their materials together when materials change hands.
+"""Keeps skins and the node groups in their materials consistent when materials are reassigned.
 
-A skin has its row in the images of one node group. Give it, or a mesh that it shares, a material that came with another
-group (appended, say), and that group would show it a row of somebody else's.
+A skin has its row in the images of one node group. If it, or a mesh that it shares, gets a material with another group
+(an appended one, say), that group would show it the row of another skin.
 """
 
 import bpy
@@ -12,14 +12,14 @@ from .skin_material import skin_node
 
 
 def may_change_groups(update: bpy.types.DepsgraphUpdate) -> bool:
-    """Whether a reported change can have put another material on a skin; a move or a lamp cannot."""
+    """Whether a reported change may have assigned another material to a skin; moving it or a light cannot."""
     if isinstance(update.id, bpy.types.Object):
         return update.id.type == "MESH" and (update.is_updated_geometry or update.is_updated_shading)
     return isinstance(update.id, bpy.types.Material)
 
 
 def follow_materials() -> None:
-    """Moves each skin to the group that its materials show, and materials of one skin to one group."""
+    """Moves each skin to the group in its materials, and all materials of a skin to one group."""
     skins = [obj for obj in bpy.data.objects if obj.type == "MESH" and obj.skinglow.enabled]
     moved = True
     while moved:
@@ -27,11 +27,11 @@ def follow_materials() -> None:
 
 
 def _follow(obj: bpy.types.Object) -> bool:
-    """Whether anything had to be moved. Groups only ever become fewer, so that this comes to an end."""
+    """Returns whether anything was moved. The number of groups only decreases, so the iteration terminates."""
     nodes = [node for slot in obj.material_slots if slot.material for node in (skin_node(slot.material),) if node]
     if not nodes:
         return False
-    # One that belongs to a library cannot be given up, as its material is written there.
+    # A group from a library takes precedence: its material cannot be changed.
     nodes.sort(key=lambda node: node.id_data.library is None)
     group = nodes[0].node_tree
     moved = False
@@ -45,7 +45,7 @@ def _follow(obj: bpy.types.Object) -> bool:
 
 
 def remove_orphans() -> None:
-    """Deletes lookup images that no group shows any more: as they point to each other, Blender never does."""
+    """Deletes lookup images that no group uses: Blender never does, because they point to each other."""
     shown = {image for group in skin_groups() for image in [shown_image(group), *images_of(group)]}
     ours = [i for i in bpy.data.images if i.library is None and getattr(i.skinglow, SLOTS[0]) is not None]
     for image in ours:

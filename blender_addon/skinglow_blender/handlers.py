@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's calls when something changes. No exception leaves them: a fault is kept for the panel."""
+"""Handlers of Blender's events. They never raise: a fault is stored and shown in the panel."""
 
 import traceback
 from collections.abc import Callable
@@ -14,20 +14,20 @@ from .group_following import follow_materials, may_change_groups, remove_orphans
 from .live_update import STATE, update_scene
 from .lut_image import images_of, skin_groups
 
-#: Changes of these alone cannot change a lamp, the world or a skin's place.
-HARMLESS = frozenset(("Material", "Image", "Texture", "Brush", "Text", "Action", "Screen", "WindowManager"))
+#: Types of data whose changes cannot affect a light, the world or the position of a skin.
+IRRELEVANT = frozenset(("Material", "Image", "Texture", "Brush", "Text", "Action", "Screen", "WindowManager"))
 
 
 def guarded(function: Callable[..., None]) -> Callable[..., None]:
-    """Keeps exceptions in. Blender hands handlers as many arguments as the function has positional ones: two."""
+    """Catches all exceptions. Blender passes as many arguments as the function has positional ones: two."""
 
     def handler(first: Any, second: Any = None) -> None:  # noqa: ANN401  differs between handlers and versions
         try:
             function(first, second)
         except (SkinError, ValueError) as error:
             STATE.faults["*"] = str(error)
-        except Exception as error:  # noqa: BLE001  whatever it is, the user's work goes on
-            STATE.faults["*"] = f"Unexpected: {type(error).__name__}: {error} (the system console has the details)"
+        except Exception as error:  # noqa: BLE001  nothing may interrupt the user's work
+            STATE.faults["*"] = f"Unexpected {type(error).__name__}: {error} (details in the system console)"
             traceback.print_exc()
 
     handler.__name__ = function.__name__
@@ -35,9 +35,9 @@ def guarded(function: Callable[..., None]) -> Callable[..., None]:
 
 
 def is_shown(depsgraph: bpy.types.Depsgraph) -> bool:
-    """Whether a depsgraph is a render's, or that of a view layer which a window shows.
+    """Whether a depsgraph belongs to a render or to a view layer shown in a window.
 
-    `frame_set` evaluates all view layers of the scene; the viewport's lookup is that of the layer in view.
+    `frame_set` evaluates all view layers of the scene; the viewport's lookup is that of the visible layer.
     """
     if depsgraph.mode == "RENDER":
         return True
@@ -47,22 +47,22 @@ def is_shown(depsgraph: bpy.types.Depsgraph) -> bool:
 
 @guarded
 def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    """Something was edited."""
+    """Called after an edit."""
     if not is_shown(depsgraph):
         return
     if any(may_change_groups(update) for update in depsgraph.updates):
         follow_materials()
     images_changed = _forget_changed_images(depsgraph)
     kinds = [type(update.id).__name__ for update in depsgraph.updates]
-    # Blender 3.4 reports changes of an image without saying of what.
-    if kinds and HARMLESS.issuperset(kinds) and not images_changed:
+    # Blender 3.4 reports changed images without saying which.
+    if kinds and IRRELEVANT.issuperset(kinds) and not images_changed:
         return
     if update_scene(depsgraph, only_live=True):
-        look_again_soon()
+        update_windows_soon()
 
 
 def _forget_changed_images(depsgraph: bpy.types.Depsgraph) -> bool:
-    """Has changed images of a world read again; whether there were any."""
+    """Marks changed images of a world to be reread; returns whether there were any."""
     changed = {u.id.original.name_full for u in depsgraph.updates if isinstance(u.id, bpy.types.Image)}
     known = [name for name in changed if world_image.is_known(name)]
     for name in known:
@@ -72,10 +72,10 @@ def _forget_changed_images(depsgraph: bpy.types.Depsgraph) -> bool:
 
 @guarded
 def on_frame_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    """Another frame: in an animation render this is the only depsgraph that holds the lights of that frame."""
+    """Called after a frame change: in an animation render this is the only depsgraph with that frame's lights."""
     if depsgraph.mode == "RENDER" and STATE.render_frame not in (None, scene.frame_current_final):
-        # A step of motion blur. The picture is that of the frame itself; writing now would spoil it, as the
-        # renderer may not have read the frame's image yet.
+        # A motion blur step. The lookup is that of the frame itself; writing now would overwrite it before the renderer
+        # has read it.
         return
     if is_shown(depsgraph):
         update_scene(depsgraph, only_live=True)
@@ -83,20 +83,20 @@ def on_frame_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> N
 
 @guarded
 def on_render_init(_scene: bpy.types.Scene, _unused: None) -> None:
-    """A render begins: the viewport's images wait until it is over."""
+    """Called when a render begins: the viewport's images are not updated until it ends."""
     STATE.rendering = True
 
 
 @guarded
 def on_render_pre(scene: bpy.types.Scene, _unused: None) -> None:
-    """A frame's render begins."""
+    """Called when the render of a frame begins."""
     STATE.rendering = True
     STATE.render_frame = scene.frame_current_final
 
 
 @guarded
 def on_render_end(_scene: bpy.types.Scene, _unused: None) -> None:
-    """The render is over, or was cancelled: the viewport's lookups come back."""
+    """Called when a render ends or is canceled: restores the viewport's lookups."""
     STATE.rendering = False
     STATE.render_frame = None
     occlusion.forget("RENDER")
@@ -105,29 +105,29 @@ def on_render_end(_scene: bpy.types.Scene, _unused: None) -> None:
 
 @guarded
 def on_undo(_first: Any, _second: Any) -> None:  # noqa: ANN401
-    """Undo or redo: nothing remembered holds any more. Pixels are not undone, but what the nodes show is.
+    """Called after undo and redo: all cached state is invalid. Pixels are not undone, but the images in the nodes are.
 
-    Evaluation follows and is reported, as the skins are tagged. Evaluating here, before Blender does, can crash it.
+    The skins are tagged, so Blender evaluates and reports them. Evaluating here, before Blender does, can crash it.
     """
     forget_all()
     for obj in bpy.data.objects:
         if obj.skinglow.enabled:
             obj.update_tag(refresh={"OBJECT"})
-    look_again_soon()
+    update_windows_soon()
 
 
-def look_again_soon() -> None:
-    """Has the windows' scenes looked at once more in a moment.
+def update_windows_soon() -> None:
+    """Schedules another update of the scenes in the windows.
 
-    What a handler writes makes Blender evaluate a second time without a report, and Blender 4.5 was seen to move
-    instanced lamps of hidden collections only then. Without a window there are no timers: scripts call update().
+    What a handler writes makes Blender evaluate again without a report, and Blender 4.5 was seen to move instanced
+    lights of hidden collections only then. There are no timers in background mode: scripts call update().
     """
-    if not bpy.app.background and not bpy.app.timers.is_registered(look_again):
-        bpy.app.timers.register(look_again, first_interval=0.05)
+    if not bpy.app.background and not bpy.app.timers.is_registered(update_windows):
+        bpy.app.timers.register(update_windows, first_interval=0.05)
 
 
-def look_again() -> None:
-    """Looks at what the windows show."""
+def update_windows() -> None:
+    """Updates the scenes in the windows."""
     if STATE.rendering:
         return
     try:
@@ -140,16 +140,16 @@ def look_again() -> None:
 
 @guarded
 def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
-    """A file was loaded. What is evaluated while it loads is not reported, so it is looked at here."""
+    """Called after loading a file. Evaluations during loading are not reported, so everything is updated here."""
     forget_all()
-    follow_windows()  # loading takes subscriptions away
+    follow_windows()  # loading clears subscriptions
     if bpy.context.view_layer is not None and any(obj.skinglow.enabled for obj in bpy.data.objects):
         update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
     remove_orphans()
 
 
 def forget_all() -> None:
-    """Back to the state before the first update."""
+    """Resets to the state before the first update."""
     STATE.rendering = False
     STATE.render_frame = None
     STATE.forget()
@@ -159,29 +159,29 @@ def forget_all() -> None:
 
 @guarded
 def on_save(_first: Any, _second: Any) -> None:  # noqa: ANN401
-    """Generated pixels are not saved unless packed."""
+    """Called before saving: generated pixels are not saved unless packed."""
     for image in {i for group in skin_groups() for i in images_of(group)}:
         if image.library is None and image.is_dirty:
             image.pack()
 
 
 def show_viewport() -> None:
-    """Puts the viewport's images back into the nodes."""
+    """Restores the viewport's images in the nodes."""
     for group in skin_groups():
         atlas = STATE.atlases.get((group.name_full, "VIEWPORT"))
         if atlas is not None:
             atlas.show(group)
 
 
-#: Whose subscriptions these are; any object of our own will do.
-WINDOWS = object()
+#: Owner of our subscriptions.
+SUBSCRIPTIONS = object()
 
 
 def follow_windows() -> None:
-    """Has a window's turn to another scene or view layer noticed: one evaluated before is shown without a report."""
-    bpy.msgbus.clear_by_owner(WINDOWS)
+    """Subscribes to scene and view layer changes of windows: a layer evaluated before is shown without a report."""
+    bpy.msgbus.clear_by_owner(SUBSCRIPTIONS)
     for name in ("scene", "view_layer"):
-        bpy.msgbus.subscribe_rna(key=(bpy.types.Window, name), owner=WINDOWS, args=(), notify=look_again_soon)
+        bpy.msgbus.subscribe_rna(key=(bpy.types.Window, name), owner=SUBSCRIPTIONS, args=(), notify=update_windows_soon)
 
 
 HANDLERS = (
@@ -199,19 +199,19 @@ HANDLERS = (
 
 
 def register() -> None:
-    """Asks Blender for its calls."""
+    """Adds the handlers."""
     for event, handler in HANDLERS:
         getattr(bpy.app.handlers, event).append(handler)
     follow_windows()
 
 
 def unregister() -> None:
-    """Takes them back."""
+    """Removes the handlers."""
     for event, handler in HANDLERS:
         handlers = getattr(bpy.app.handlers, event)
         if handler in handlers:
             handlers.remove(handler)
-    bpy.msgbus.clear_by_owner(WINDOWS)
-    if bpy.app.timers.is_registered(look_again):
-        bpy.app.timers.unregister(look_again)
+    bpy.msgbus.clear_by_owner(SUBSCRIPTIONS)
+    if bpy.app.timers.is_registered(update_windows):
+        bpy.app.timers.unregister(update_windows)
     STATE.forget()

@@ -10,42 +10,42 @@ from mathutils import Color
 from . import working_space
 from .errors import SkinError
 
-#: Names of color spaces whose bytes are linear light already, in Blender's own configurations from 3.4 to 5.2.
+#: Names of color spaces whose bytes are linear already, in Blender's own configurations from 3.4 to 5.2.
 LINEAR_SPACES = frozenset(("Linear", "Linear Rec.709"))
-#: Pixels decoded at a time, so that a large image needs little memory besides its own.
-DECODED_AT_ONCE = 1 << 20
+#: Pixels decoded at a time, to bound the temporary memory for large images.
+DECODE_BLOCK = 1 << 20
 
 
 def linear_pixels(image: bpy.types.Image) -> np.ndarray:
-    """(height, width, channels) float32, the lowest row first. Raises SkinError where the image has none."""
+    """(height, width, channels) float32, bottom row first. Raises SkinError if the image has none."""
     if not image.has_data:
-        # Reading the pixels loads them, where the file is there.
+        # Reading the pixels loads them, if the file exists.
         len(image.pixels)
     width, height = image.size
     if width == 0 or height == 0 or not image.has_data:
-        raise SkinError(f"'{image.name}' has no pixels: is its file '{image.filepath}' still there?")
+        raise SkinError(f"'{image.name}' has no pixels: check that its file '{image.filepath}' exists")
     pixels = np.empty(width * height * image.channels, np.float32)
     image.pixels.foreach_get(pixels)
     if _is_coded(image):
         table = _linear_of_bytes()
-        for start in range(0, len(pixels), DECODED_AT_ONCE):
-            part = pixels[start : start + DECODED_AT_ONCE]
+        for start in range(0, len(pixels), DECODE_BLOCK):
+            part = pixels[start : start + DECODE_BLOCK]
             np.take(table, np.rint(part * 255.0).astype(np.uint8), out=part)
     pixels = pixels.reshape(height, width, image.channels)
     if image.is_float and image.channels > 2 and not image.colorspace_settings.is_data:
-        # Blender has made linear ones of them in the file's working space.
+        # Blender has converted them to the file's linear working space.
         pixels[:, :, :3] = working_space.to_rec709(pixels[:, :, :3])
     return pixels
 
 
 def colorspace_note(image: bpy.types.Image) -> str:
-    """What of an image's color space could not be followed, or ""."""
+    """What of an image's color space is not supported, or ""."""
     name = image.colorspace_settings.name
-    return "" if not _is_coded(image) or name == "sRGB" else f"its image's color space '{name}' is taken as sRGB"
+    return "" if not _is_coded(image) or name == "sRGB" else f"its image's color space '{name}' is treated as sRGB"
 
 
 def _is_coded(image: bpy.types.Image) -> bool:
-    # Bytes come as they are in the file; of floats Blender has made linear ones.
+    # Blender returns bytes as they are in the file, and floats converted to linear.
     settings = image.colorspace_settings
     return not image.is_float and not settings.is_data and settings.name not in LINEAR_SPACES
 

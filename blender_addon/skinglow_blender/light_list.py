@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panel's lists of lights show, kept between redraws and filled anew after an edit.
+"""The lists of lights in the panel, cached between redraws and refilled after an edit.
 
-Drawing may write nothing, and happens at each move of the pointer. So it only compares stamps, and asks for what is out
-of date; a timer fills that a moment later and has the panels drawn again. The lists are the window manager's: they are
-no part of anybody's scene, and undo leaves them alone.
+Drawing must not write data, and happens with every mouse move. So it only compares stamps and requests lists that are
+out of date; a timer fills them a moment later and redraws the panels. The lists belong to the window manager, so they
+are not part of a scene and not affected by undo.
 """
 
 from typing import Any
@@ -15,25 +15,25 @@ from .errors import SkinError
 from .light_listing import light_report
 from .live_update import STATE
 
-#: Seconds from a redraw that asked to the filling: as often as this while a lamp is dragged.
+#: Seconds between a request and the update: the update interval while a light is dragged.
 DELAY = 0.05
 
-#: By skin: (STATE.looks, scene, view layer) that its list was filled at, and those that drawing asked for.
+#: By skin: (STATE.updates, scene, view layer) of the filled list, and of the lists requested by drawing.
 _filled: dict[str, tuple[int, str, str]] = {}
-_wanted: dict[str, tuple[int, str, str]] = {}
+_requested: dict[str, tuple[int, str, str]] = {}
 
 
 class LightRow(bpy.types.PropertyGroup):
-    """A lamp's line, from light_listing.light_report."""
+    """The row of a light, from light_listing.light_report."""
 
     name: StringProperty(name="Light")
     kind: StringProperty()
-    share: FloatProperty(name="Share", description="Of all that the lamps bring to this skin, 0 to 1")
+    share: FloatProperty(name="Fraction", description="Fraction of all light on this skin, 0 to 1")
     weight: FloatVectorProperty(
         name="Weight",
         size=3,
         precision=4,
-        description="Red, green and blue: color times attenuation; in mode physical irradiance, W/m^2",
+        description="Red, green and blue: color times attenuation, or irradiance in W/m^2 in Physical mode",
     )
     distance: FloatProperty(default=-1.0)
     reason: StringProperty()
@@ -45,35 +45,35 @@ class LightRow(bpy.types.PropertyGroup):
         min=0.0,
         max=1.0,
         get=lambda row: _hue(row.weight),
-        description="The color that this lamp brings, at full brightness",
+        description="Color of the light on this skin, at full brightness",
     )
 
 
 class LightList(bpy.types.PropertyGroup):
-    """A skin's lines, the strongest lamp first; named as the skin."""
+    """The rows of a skin, strongest light first; named after the skin."""
 
     rows: CollectionProperty(type=LightRow)
-    active: IntProperty(name="Light", description="The lamp whose details stand below the list")
+    active: IntProperty(name="Light", description="Light whose details are shown below the list")
 
 
 def list_of(obj: bpy.types.Object, context: bpy.types.Context) -> LightList | None:
-    """A skin's list as far as it is filled; asks for it to be filled where an edit came since. For draw()."""
+    """A skin's list as last filled, or None; requests an update if it is out of date. For draw()."""
     key = obj.name_full
-    stamp = (STATE.looks, context.scene.name, context.view_layer.name)
+    stamp = (STATE.updates, context.scene.name, context.view_layer.name)
     if _filled.get(key) != stamp:
-        _wanted[key] = stamp
-        # Without a window there are no timers, and nobody to look.
+        _requested[key] = stamp
+        # There are no timers in background mode.
         if not bpy.app.background and not bpy.app.timers.is_registered(_fill_soon):
             bpy.app.timers.register(_fill_soon, first_interval=DELAY)
     return context.window_manager.skinglow_lists.get(key)
 
 
-def fill_wanted() -> int:
-    """Fills the lists that drawing asked for; how many that were."""
+def fill_requested() -> int:
+    """Fills the requested lists; returns their number."""
     lists = bpy.context.window_manager.skinglow_lists
     filled = 0
-    while _wanted:
-        key, stamp = _wanted.popitem()
+    while _requested:
+        key, stamp = _requested.popitem()
         obj = next((o for o in bpy.data.objects if o.name_full == key), None)
         layer = _view_layer(*stamp[1:])
         if obj is None or layer is None or layer.depsgraph is None:
@@ -81,7 +81,7 @@ def fill_wanted() -> int:
         try:
             rows = light_report(obj, layer.depsgraph)
         except (SkinError, ValueError):
-            continue  # the panel shows the fault that the update had
+            continue  # the panel shows the fault of the update
         _fill(lists.get(key) or _new_list(lists, key), rows)
         _filled[key] = stamp
         filled += 1
@@ -89,7 +89,7 @@ def fill_wanted() -> int:
 
 
 def _fill_soon() -> None:
-    if STATE.rendering or not fill_wanted():
+    if STATE.rendering or not fill_requested():
         return
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
@@ -141,7 +141,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Takes them away with what they hold."""
+    """Removes the lists and their contents."""
     if bpy.app.timers.is_registered(_fill_soon):
         bpy.app.timers.unregister(_fill_soon)
     for manager in bpy.data.window_managers:
@@ -150,4 +150,4 @@ def unregister() -> None:
     bpy.utils.unregister_class(LightList)
     bpy.utils.unregister_class(LightRow)
     _filled.clear()
-    _wanted.clear()
+    _requested.clear()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The list of lights: what each does for the skin and, where it does nothing, why."""
+"""The list of lights: the contribution of each to the skin, or why it has none."""
 
 import bpy
 
@@ -7,12 +7,12 @@ from . import light_list
 from .skin import choice_of
 from .wrapped_text import draw_wrapped
 
-ROWS = 4
-MOST_ROWS = 12
+MIN_ROWS = 4
+MAX_ROWS = 12
 
 
 class SKINGLOW_UL_lights(bpy.types.UIList):  # noqa: N801  Blender's naming
-    """One lamp a line: a color swatch and its share, or why it gives nothing."""
+    """One light per row: a color swatch and its fraction of the light, or why it contributes nothing."""
 
     bl_idname = "SKINGLOW_UL_lights"
 
@@ -36,9 +36,9 @@ class SKINGLOW_UL_lights(bpy.types.UIList):  # noqa: N801  Blender's naming
         else:
             line.label(text=row.name, icon=_icon_of(row.kind))
             _column(line, 1.0).prop(row, "swatch", text="")
-            share = _column(line, 2.0)
-            share.alignment = "RIGHT"
-            share.label(text="<1%" if 0.0 < row.share < 0.01 else f"{row.share:.0%}")
+            fraction = _column(line, 2.0)
+            fraction.alignment = "RIGHT"
+            fraction.label(text="<1%" if 0.0 < row.share < 0.01 else f"{row.share:.0%}")
         if row.kind == "WORLD":
             return
         button = line.operator("skinglow.select_light", text="", icon="RESTRICT_SELECT_OFF", emboss=False)
@@ -52,22 +52,22 @@ def _column(line: bpy.types.UILayout, units: float) -> bpy.types.UILayout:
 
 
 def draw_lights(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context) -> None:
-    """The list, and the chosen lamp's numbers below."""
+    """The list, and the details of the active light below."""
     if obj.skinglow.mode == "EXISTING":
-        layout.label(text="Mode 'Existing' does not follow the lamps", icon="INFO")
+        layout.label(text="Fixed mode ignores the lights", icon="INFO")
         return
     if obj.skinglow.mode == "PHYSICAL":
-        _draw_ways(layout, obj, context)
+        _draw_lighting(layout, obj, context)
     lights = light_list.list_of(obj, context)
     if lights is None:
-        layout.label(text="Looking at the lamps", icon="LIGHT")
+        layout.label(text="Updating lights...", icon="LIGHT")
         return
     if not lights.rows:
-        layout.label(text="No lamps in this scene: add one", icon="LIGHT")
+        layout.label(text="No lights in this scene", icon="LIGHT")
         return
-    rows = min(max(len(lights.rows), ROWS), MOST_ROWS)
+    rows = min(max(len(lights.rows), MIN_ROWS), MAX_ROWS)
     layout.template_list(
-        SKINGLOW_UL_lights.bl_idname, obj.name_full, lights, "rows", lights, "active", rows=rows, maxrows=MOST_ROWS
+        SKINGLOW_UL_lights.bl_idname, obj.name_full, lights, "rows", lights, "active", rows=rows, maxrows=MAX_ROWS
     )
     if 0 <= lights.active < len(lights.rows):
         _draw_details(layout, lights.rows[lights.active], obj.skinglow.mode == "PHYSICAL", context)
@@ -77,17 +77,17 @@ def _icon_of(kind: str) -> str:
     return "WORLD" if kind == "WORLD" else f"LIGHT_{kind}"
 
 
-def _draw_ways(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context) -> None:
-    """How the lamps of a physical skin are weighed, and what 'Automatic' came to."""
+def _draw_lighting(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context) -> None:
+    """How a skin in Physical mode is lit, and what Automatic has chosen."""
     column = layout.column(align=True)
     column.use_property_split, column.use_property_decorate = True, False
     column.prop(obj.skinglow, "weights")
     choice = choice_of(obj, context.view_layer.depsgraph)
     if choice.bound is not None:
         if choice.weights == "SURFACE":
-            text = f"Weighed at each pixel; one weight for the object may be {choice.bound:.0%} off"
+            text = f"Lit per pixel: a single weight may be {choice.bound:.0%} off"
         else:
-            text = f"Weighed once for the object, which may be {choice.bound:.0%} off"
+            text = f"Lit per object: may be {choice.bound:.0%} off"
         draw_wrapped(column, text, context, "INFO")
     column.prop(context.scene.skinglow, "occlusion")
 
@@ -97,13 +97,13 @@ def _draw_details(
 ) -> None:
     column = layout.column(align=True)
     if row.reason:
-        draw_wrapped(column, f"{row.name} gives nothing: {row.reason}", context, icon="INFO")
+        draw_wrapped(column, f"No light from {row.name}: {row.reason}", context, icon="INFO")
     else:
         numbers = "  ".join(f"{part:.3g}" for part in row.weight)
         column.label(text=row.name, icon=_icon_of(row.kind))
         column.label(text=f"RGB  {numbers}{' W/m^2' if physical else ''}", icon="BLANK1")
-        anywhere = {"SUN": "a sun, at any distance", "WORLD": "the world, from all around"}
-        where = anywhere.get(row.kind, f"{row.distance:.4g} units away")
+        distant = {"SUN": "at infinite distance", "WORLD": "from all directions"}
+        where = distant.get(row.kind, f"at a distance of {row.distance:.4g} units")
         draw_wrapped(column, f"{row.share:.1%} of all light, {where}", context, icon="BLANK1")
     if row.note:
         draw_wrapped(column, row.note, context, icon="ERROR")

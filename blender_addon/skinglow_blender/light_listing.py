@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What each lamp of a scene and its world do for a skin, and why they do nothing."""
+"""What each light of a scene and its world contribute to a skin, and why they contribute nothing."""
 
 from typing import Any
 
@@ -7,51 +7,52 @@ import bpy
 import numpy as np
 
 from .errors import core
-from .occlusion import with_visible_shares
-from .scene_lights import Lamp, make_light
+from .lut_layout import MAX_TERMS
+from .occlusion import with_visible_fractions
+from .scene_lights import SceneLight, make_light
 from .scene_reading import Skin, read_scene, read_skin
 from .scene_world import World
 from .skin import skin_settings_of, table_of
 
 
 def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[dict[str, Any]]:
-    """A dict for each lamp of the depsgraph, for the world, and for each lamp of the scene that is hidden from it.
+    """A dict for each light of the depsgraph, for the world, and for each light of the scene that is hidden from it.
 
-    name      of the lamp's object; " in <name>" where something instances it; of the world
+    name      of the light object, followed by " in <instancer>" for an instance; of the world
     kind      'POINT', 'SUN', 'SPOT', 'AREA' or 'WORLD'
     weight    (3,) float64: color times attenuation in modes existing and paper; irradiance, W/m^2, in mode physical
-    distance  from the skin's reference point, scene units; 0 for a sun and the world, None for a lamp that is not in
+    distance  from the skin's reference point, scene units; 0 for a sun and the world, None for a light that is not in
               the depsgraph
-    angle     between the lamp's axis and the reference point, radians; 0 for a point lamp, a sun and the world, None
-              for a lamp that is not in the depsgraph
-    share     of the sum of all weights, 0 to 1
-    visible   share of its light that other objects let through to the skin's far side, 0 to 1; 1 unless the scene's
-              occlusion is on and the mode physical
-    reason    why its weight is zero, in words, or ""
-    note      what of it could not be taken over, or ""
+    angle     between the light's axis and the reference point, radians; 0 for a point light, a sun and the world,
+              None for a light that is not in the depsgraph
+    share     fraction of the sum of all weights, 0 to 1
+    visible   fraction of its light that other objects let through to the skin's far side, 0 to 1; 1 unless the
+              scene's occlusion is on and the mode is physical
+    reason    why its weight is zero, or ""
+    note      what of it is not supported, or ""
     """
     skin_settings_of(obj)
     evaluated = obj.evaluated_get(depsgraph)
     skin = read_skin(evaluated, evaluated.matrix_world)
     reading = read_scene(depsgraph)._replace(skins=[(obj, skin)])
-    lamps = with_visible_shares(reading, depsgraph, {}).lamps
-    far = _far_lamps(obj, depsgraph)
-    rows = [_row(skin, lamp, far) for lamp in lamps]
+    lights = with_visible_fractions(reading, depsgraph, {}).lights
+    far_lights = _far_lights(obj, depsgraph)
+    rows = [_row(skin, light, far_lights) for light in lights]
     if reading.world is not None:
         rows.append(_world_row(skin, reading.world))
     total = sum(float(np.sum(row["weight"])) for row in rows)
     for row in rows:
         row["share"] = float(np.sum(row["weight"])) / total if total > 0.0 else 0.0
-    seen = {lamp.name for lamp in lamps}
+    listed = {light.name for light in lights}
     for other in depsgraph.scene.objects:
-        if other.type == "LIGHT" and other.name not in seen:
+        if other.type == "LIGHT" and other.name not in listed:
             hidden = _entry(other.name, other.data.type, reason=_why_hidden(other, depsgraph))
             rows.append(hidden | {"distance": None, "angle": None})
     return rows
 
 
 def _entry(name: str, kind: str, reason: str = "", note: str = "") -> dict[str, Any]:
-    """A row of something that gives nothing."""
+    """A row without a contribution."""
     return {
         "name": name,
         "kind": kind,
@@ -65,26 +66,26 @@ def _entry(name: str, kind: str, reason: str = "", note: str = "") -> dict[str, 
     }
 
 
-def _far_lamps(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> frozenset[str]:
-    """Names of the lamps that have no term of their own where the light is worked out at each pixel."""
+def _far_lights(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> frozenset[str]:
+    """Names of the lights without a term of their own in a skin that is lit per pixel."""
     table = table_of(obj, depsgraph)
-    return table.far_lamps if table is not None else frozenset()
+    return table.far_lights if table is not None else frozenset()
 
 
-def _row(skin: Skin, lamp: Lamp, far: frozenset[str]) -> dict[str, Any]:
+def _row(skin: Skin, scene_light: SceneLight, far_lights: frozenset[str]) -> dict[str, Any]:
     sg = core()
-    visible = lamp.visible.get(skin.key, 1.0)
-    notes = [lamp.note]
+    visible = scene_light.visible.get(skin.key, 1.0)
+    notes = [scene_light.note]
     if 0.0 < visible < 1.0:
         notes.append(f"other objects let {visible:.1%} of it through")
-    if lamp.name in far:
-        notes.append("beyond the material's terms: it shines as if from far away")
-    row = _entry(lamp.name, lamp.signature[1], lamp.left_out, "; ".join(filter(None, notes)))
+    if scene_light.name in far_lights:
+        notes.append(f"more than {MAX_TERMS} lights: treated as distant")
+    row = _entry(scene_light.name, scene_light.signature[1], scene_light.unlit_reason, "; ".join(filter(None, notes)))
     row["visible"] = visible
-    if not row["reason"] and not lamp.lights(skin.name):
-        row["reason"] = "light linking keeps it from this object"
+    if not row["reason"] and not scene_light.lights(skin.name):
+        row["reason"] = "light linking excludes this object"
     try:
-        light = make_light(lamp.seen_by(skin.key))
+        light = make_light(scene_light.seen_by(skin.key))
         found = sg.light_report([light], skin.point)[0]
     except ValueError as error:
         return row | {"distance": None, "angle": None, "reason": row["reason"] or str(error)}
@@ -103,9 +104,9 @@ def _row(skin: Skin, lamp: Lamp, far: frozenset[str]) -> dict[str, Any]:
 
 
 def _world_row(skin: Skin, world: World) -> dict[str, Any]:
-    row = _entry(world.name, "WORLD", world.left_out, world.unfollowed)
+    row = _entry(world.name, "WORLD", world.unlit_reason, world.unsupported)
     if skin.mode != "PHYSICAL":
-        row["reason"] = "the paper's formula knows no world"
+        row["reason"] = "only Physical mode uses the world"
     elif not row["reason"]:
         row["weight"], row["note"] = np.array(world.irradiance), world.note
         if not row["weight"].any():

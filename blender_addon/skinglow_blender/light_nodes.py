@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the nodes of a lamp multiply its color and its power by."""
+"""The factors by which a light's nodes multiply its color and its power."""
 
 from typing import NamedTuple
 
@@ -10,7 +10,7 @@ from .node_values import linked_node, socket_value
 
 
 class NodeFactor(NamedTuple):
-    """Color and strength of a lamp's Emission node, and what of the nodes could not be followed."""
+    """Color and strength of a light's Emission node, and a note of what in the nodes is not supported."""
 
     color: tuple[float, float, float]
     strength: float
@@ -21,10 +21,10 @@ WITHOUT_NODES = NodeFactor((1.0, 1.0, 1.0), 1.0, "")
 
 
 def node_factor(light: bpy.types.Light) -> NodeFactor:
-    """Reads the Emission node that drives a lamp.
+    """Reads the Emission node that drives a light.
 
-    Its values are followed as far as node_values.py can. Without an active output, or with nothing linked to it, the
-    lamp is dark.
+    Its values are evaluated as far as node_values.py can. Without an active output, or with nothing linked to it, the
+    light is dark.
     """
     tree = blender_version.shader_tree(light)
     if tree is None:
@@ -34,7 +34,7 @@ def node_factor(light: bpy.types.Light) -> NodeFactor:
     if source is None:
         return NodeFactor((0.0, 0.0, 0.0), 0.0, "its nodes have no shader linked to the output")
     if source.bl_idname != "ShaderNodeEmission":
-        return WITHOUT_NODES._replace(note=f"its node '{source.name}' is not an Emission and is not followed")
+        return WITHOUT_NODES._replace(note=f"its node '{source.name}' is not an Emission node and is ignored")
     color, color_note = socket_value(source.inputs["Color"])
     strength, strength_note = socket_value(source.inputs["Strength"])
     return NodeFactor(tuple(color)[:3], strength, color_note or strength_note)

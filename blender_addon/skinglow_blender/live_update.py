@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Brings what changed in a scene into the skins' images, and does nothing at all where nothing changed."""
+"""Updates the skins' images after a change in the scene; does nothing if nothing changed."""
 
 from typing import NamedTuple
 
@@ -10,7 +10,7 @@ from . import working_space
 from .errors import SkinError
 from .lut_image import Atlas, ensure_images, has_room
 from .lut_layout import layout_of, plain_row, surface_row
-from .occlusion import with_visible_shares
+from .occlusion import with_visible_fractions
 from .scene_lights import FIELDS
 from .scene_reading import ROW_PROPERTY, SceneReading, Skin, read_scene
 from .skin_group import build_plain
@@ -20,34 +20,34 @@ from .texel_mapping import texels_per_mm
 
 
 class Rebuilt(NamedTuple):
-    """One skin's table that was computed again."""
+    """One skin's table that was recomputed."""
 
     skin: str  #: name of the object
-    mode: str  #: 'VIEWPORT' or 'RENDER': whose lamps it was computed for
-    before: Signature | None  #: signature of what was shown before; None: nothing
-    after: Signature  #: signature of what is shown now
+    mode: str  #: 'VIEWPORT' or 'RENDER': the depsgraph mode it was computed for
+    before: Signature | None  #: signature of the previous table; None: there was none
+    after: Signature  #: signature of the new table
 
     @property
     def why(self) -> str:
-        """What changed, in words."""
+        """What changed, as text."""
         return why_changed(self.before, self.after)
 
 
 class LiveState:
-    """What is remembered between updates. Undo and load make it worthless: they replace all data."""
+    """State kept between updates. Undo and load invalidate it: they replace all data."""
 
     def __init__(self) -> None:
         self.atlases: dict[tuple[str, str], Atlas] = {}
         self.faults: dict[str, str] = {}
-        #: (node group, row) to the name and library of the object whose row it is.
+        #: (node group, row) to the name and library of the object that owns the row.
         self.owners: dict[tuple[str, int], tuple[str, str | None]] = {}
         self.rendering = False
         self.render_frame: float | None = None
-        #: How often a scene was looked at, so once an edit: what was derived before may be out of date.
-        self.looks = 0
+        #: Number of updates, one per edit: anything derived at a lower number may be out of date.
+        self.updates = 0
 
     def forget(self) -> None:
-        """Forgets all tables, so that the next update computes and shows every one."""
+        """Drops all tables, so that the next update recomputes and shows every one."""
         self.atlases.clear()
         self.owners.clear()
         self.faults.clear()
@@ -57,19 +57,19 @@ STATE = LiveState()
 
 
 def update_scene(depsgraph: bpy.types.Depsgraph, only_live: bool = False) -> list[Rebuilt]:
-    """Recomputes and shows what changed for this depsgraph; faults are kept in STATE.faults and do not stop others.
+    """Recomputes and shows what changed in this depsgraph. Faults go to STATE.faults and do not affect other skins.
 
-    A skin with a fault keeps its last good table. With only_live, skins that are not set to follow show what they did.
+    A skin with a fault keeps its last good table. With only_live, skins that are not live keep the table they show.
     """
-    STATE.looks += 1
+    STATE.updates += 1
     faults: dict[str, str] = {}
-    reading = with_visible_shares(read_scene(depsgraph), depsgraph, faults)
+    reading = with_visible_fractions(read_scene(depsgraph), depsgraph, faults)
     rebuilt: list[Rebuilt] = []
     groups: dict[str, tuple[bpy.types.NodeTree, list[tuple[bpy.types.Object, Skin]]]] = {}
     for obj, skin in reading.skins:
         group = obj.skinglow.group
         if group is None:
-            faults[skin.key] = f"{skin.name}: its node group is gone; make the skin again"
+            faults[skin.key] = f"{skin.name}: its node group was deleted: make the skin again"
             continue
         groups.setdefault(group.name_full, (group, []))[1].append((obj, skin))
     for group, members in groups.values():
@@ -96,7 +96,7 @@ def _update_group(
     before = {key: (signature, atlas.rows.get(key)) for key, signature in atlas.signatures.items()}
     other = STATE.atlases.get((group.name_full, "RENDER" if mode == "VIEWPORT" else "VIEWPORT"))
     kept = _keep(atlas, other, members) if only_live else set()
-    # Nodes are not made while rendering, nor in a library's group.
+    # Nodes cannot be added while rendering, nor to a group from a library.
     fixed = STATE.rendering or group.library is not None
     _compute(atlas, members, kept, reading, faults, fixed)
     if _fit_layout(group, atlas, members):
@@ -123,7 +123,7 @@ def _update_group(
 
 
 def _keep(atlas: Atlas, other: Atlas | None, members: list[tuple[bpy.types.Object, Skin]]) -> set[str]:
-    """Keys of the skins that do not follow the lamps and so keep what they show: here, or else in the other atlas."""
+    """Keys of the skins that are not live and keep their table, from this atlas or else from the other."""
     kept = set()
     for key in [skin.key for _obj, skin in members if not skin.live]:
         if key not in atlas.tables and other is not None and key in other.tables:
@@ -149,18 +149,18 @@ def _compute(
     for _obj, skin in members:
         if skin.key in kept:
             continue
-        signature = signature_of(skin, reading.lamps, reading.world)
+        signature = signature_of(skin, reading.lights, reading.world)
         if atlas.signatures.get(skin.key) == signature:
             continue
         try:
-            atlas.tables[skin.key] = compute_table(skin, reading.lamps, reading.world, room)
+            atlas.tables[skin.key] = compute_table(skin, reading.lights, reading.world, room)
             atlas.signatures[skin.key] = signature
         except (SkinError, ValueError) as error:
             faults[skin.key] = str(error)
 
 
 def _texels(table: Table, skin: Skin, atlas: Atlas) -> np.ndarray:
-    """A skin's row of the image, its colors in the file's own space."""
+    """A skin's row of the image, with colors in the file's working space."""
     if atlas.layout is None:
         return plain_row(working_space.from_rec709(table.colors), atlas.pixels.shape[1])
     weight = table.weight if table.weight is not None else (1.0, 1.0, 1.0)
@@ -170,7 +170,7 @@ def _texels(table: Table, skin: Skin, atlas: Atlas) -> np.ndarray:
 
 
 def _fit_layout(group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]]) -> bool:
-    """Gives a group the nodes that its skins' light needs; whether that made the atlas worthless."""
+    """Builds the nodes that the group's skins need; returns whether that invalidated the atlas."""
     wanted = atlas.layout
     tables = [atlas.tables[skin.key] for _obj, skin in members if skin.key in atlas.tables]
     lit = [table for table in tables if table.lighting is not None]
@@ -186,7 +186,10 @@ def _fit_layout(group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy
     if wanted == atlas.layout or group.library is not None or (wanted is None and STATE.rendering):
         return False
     if STATE.rendering:
-        raise SkinError("its nodes are too few for these lamps, and none can be made while rendering; update before")
+        raise SkinError(
+            "its material has too few nodes for these lights, and nodes cannot be added while rendering: "
+            "update before rendering"
+        )
     if wanted is None:
         build_plain(group)
         return True
@@ -196,7 +199,7 @@ def _fit_layout(group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy
 
 
 def _has_surface_weights(group: bpy.types.NodeTree) -> bool:
-    """Whether a skin of the file may ask for light at each pixel: nodes for that are not taken away meanwhile."""
+    """Whether any skin of the group may be lit per pixel, so that the nodes for that are kept."""
     skins = (o.skinglow for o in bpy.data.objects if o.type == "MESH")
     return any(s.group == group and s.enabled and s.mode == "PHYSICAL" and s.weights != "OBJECT" for s in skins)
 
@@ -210,7 +213,7 @@ def _atlas(group: bpy.types.NodeTree, mode: str) -> Atlas:
 
 
 def _separate_rows(group: bpy.types.NodeTree, members: list[tuple[bpy.types.Object, Skin]]) -> None:
-    """Gives a row of its own to each skin that has none or that came by a copy of another's."""
+    """Assigns a row to each skin that has none or shares one because it was copied from another skin."""
     for obj, _skin in members:
         settings = obj.skinglow
         me = (obj.name, obj.library.filepath if obj.library is not None else None)
@@ -221,7 +224,7 @@ def _separate_rows(group: bpy.types.NodeTree, members: list[tuple[bpy.types.Obje
 
 
 def _other_owner(group: bpy.types.NodeTree, row: int, me: tuple[str, str | None]) -> bool:
-    """Whether a row belongs to another object: one that still is there, in whichever scene, and still has it."""
+    """Whether a row belongs to another object that still exists, in any scene, and still uses it."""
     owner = STATE.owners.get((group.name_full, row))
     if owner is None or owner == me:
         return False
@@ -233,12 +236,12 @@ def _make_room(group: bpy.types.NodeTree, width: int, rows: int) -> None:
     if has_room(group, width, rows):
         return
     if STATE.rendering:
-        raise SkinError("its images are too small, and they cannot be enlarged while rendering; update before")
+        raise SkinError("its images are too small and cannot be enlarged while rendering: update before rendering")
     ensure_images(group, width, rows)
 
 
 def _set_row_property(obj: bpy.types.Object, skin: Skin, atlas: Atlas) -> None:
-    """Tells the object's material where its row is and how thickness finds its texel."""
+    """Sets the property from which the object's material reads its row and the mapping from thickness to texel."""
     height, width = atlas.pixels.shape[:2]
     scale = texels_per_mm(obj, skin, atlas.tables[skin.key].texel_mapping)
     wanted = (scale, 1.0 / width, (obj.skinglow.row + 0.5) / height, skin.strength)
@@ -247,30 +250,30 @@ def _set_row_property(obj: bpy.types.Object, skin: Skin, atlas: Atlas) -> None:
         obj.update_tag(refresh={"OBJECT"})
 
 
-#: Fields of a signature in words.
+#: Fields of a signature as text.
 REASONS = {
     "base": "base lookup",
     "blood_weight": "blood weight",
     "attenuation": "attenuation",
     "point": "reference point",
     "weights": "weights",
-    "surface": "its place or shape",
+    "surface": "its position or shape",
     "world": "world",
 }
 
 
 def why_changed(before: Signature | None, after: Signature) -> str:
-    """The difference of two signatures in words."""
+    """The difference between two signatures, as text."""
     if before is None:
         return "first computed"
     if before.mode != after.mode:
         return f"mode {before.mode.lower()} to {after.mode.lower()}"
     reasons = [words for name, words in REASONS.items() if getattr(before, name) != getattr(after, name)]
     old, new = ({light[0]: light for light in signature.lights} for signature in (before, after))
-    reasons += [f"light '{name}' came" for name in new if name not in old]
-    reasons += [f"light '{name}' went" for name in old if name not in new]
+    reasons += [f"light '{name}' added" for name in new if name not in old]
+    reasons += [f"light '{name}' removed" for name in old if name not in new]
     for name in new:
         if name in old and old[name] != new[name]:
             changed = [f for f, a, b in zip(FIELDS, old[name], new[name], strict=True) if a != b]
             reasons.append(f"light '{name}': {', '.join(changed)}")
-    return "; ".join(reasons) or "its row of the image"
+    return "; ".join(reasons) or "its row in the image"

@@ -1,31 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a skin's row of the lookup image holds, texel by texel, for the nodes that read it and for what writes it.
+"""The texels of a skin's row in the lookup image, for the nodes that read them and the code that writes them.
 
-Plain: the colors by thickness, and nothing else. With surface weights, where the light is worked out at each pixel:
+A plain row holds the colors by thickness and nothing else. The row of a skin that is lit per pixel:
 
-    columns   entries each of M(d)'s three columns
-    constant  light that is the same everywhere; in its alpha the depth of a millimeter, scene units
+    columns   `entries` texels for each of the three columns of M(d)
+    constant  light that is the same everywhere; alpha: scene units per millimeter of thickness
     angular   four coefficients of the cubic in the cosine
-    object    the object's one weight, which no node reads: lut() does
-    world     nine coefficients of the polynomial in the normal, where there is one
-    lamps     four texels for each term, plain ones first
+    object    the object's single weight; read by lut(), not by the nodes
+    world     nine coefficients of the polynomial in the normal, if there is one
+    terms     four texels per term, plain terms first
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-#: Lamps and tiles of lamps that a material works out at each pixel, at most of each kind.
+#: Maximum number of terms (lights or tiles of area lights) of each kind that a material evaluates per pixel.
 MAX_TERMS = 8
-#: On a skin's node group: entries, plain terms, terms with a profile, and whether there is a world (Layout).
+#: Custom property of a skin's node group: entries, plain terms, terms with a profile, has a world (Layout).
 LAYOUT_PROPERTY = "skinglow_layout"
-#: A term without light: somewhere, of some size, so that nothing is divided by 0.
+#: A term without light, at a non-zero distance and size, so that nothing is divided by 0.
 DARK_TERM = np.array(((0, 0, 0, 1), (0, 0, 1, 1), (0, 0, 0, 0), (0, 1, 0, 0)), np.float32)
 LAMBERT = np.array(((1, 1, 1), (0, 0, 0), (0, 0, 0), (0, 0, 0)), np.float32)
 
 
 class Layout(NamedTuple):
-    """Room in a row with surface weights."""
+    """Layout of the row of a skin that is lit per pixel."""
 
     entries: int  #: of each column
     plain: int  #: terms without a profile
@@ -53,36 +53,37 @@ class Layout(NamedTuple):
         return self.object + 1
 
     @property
-    def lamps(self) -> int:
+    def terms(self) -> int:
         """First texel of the first term."""
         return self.polynomial + (9 if self.world else 0)
 
     @property
     def width(self) -> int:
         """Texels of a row."""
-        return self.lamps + 4 * (self.plain + self.profiled)
+        return self.terms + 4 * (self.plain + self.profiled)
 
     def holds(self, other: "Layout") -> bool:
-        """Whether all that the other has room for has room here."""
+        """Whether everything of the other layout fits into this one."""
         return all(a >= b for a, b in zip(self, other, strict=True))
 
     def joined(self, other: "Layout") -> "Layout":
-        """The least that holds both."""
+        """The smallest layout that holds both."""
         return Layout(*(max(a, b) for a, b in zip(self, other, strict=True)))
 
 
 def layout_of(lighting: object, entries: int) -> Layout:
-    """The layout that a skinglow.SurfaceLighting asks for, in steps so that few changes ask for another."""
+    """The layout that a skinglow.SurfaceLighting needs, rounded up so that few changes need another one."""
     profiled = len(lighting.terms) - lighting.plain_terms
-    return Layout(entries, _step(lighting.plain_terms), _step(profiled), bool(np.any(lighting.polynomial)))
+    counts = (_next_power_of_two(count) for count in (lighting.plain_terms, profiled))
+    return Layout(entries, *counts, bool(np.any(lighting.polynomial)))
 
 
-def _step(count: int) -> int:
+def _next_power_of_two(count: int) -> int:
     return 0 if count == 0 else 1 << (count - 1).bit_length()
 
 
 def plain_row(colors: np.ndarray, width: int) -> np.ndarray:
-    """A row (width, 4) of colors (size, 3); the last goes on to the edge."""
+    """A row (width, 4) of colors (size, 3), padded with the last color."""
     row = np.empty((width, 4), np.float32)
     row[:, 3] = 1.0
     row[: len(colors), :3] = colors
@@ -95,10 +96,10 @@ def surface_row(
 ) -> np.ndarray:
     """A row (layout.width, 4).
 
-    columns       (size, 3, 3): of each entry the three columns of M(d), each a color
-    weight        (3,): the object's; what there is everywhere where there is no lighting
-    lighting      a skinglow.SurfaceLighting that the layout holds; its light counts over pi, as leaving skin does
-    depth_per_mm  scene units for a millimeter of the thickness attribute
+    columns       (size, 3, 3): the three columns of M(d), each a color, for each entry
+    weight        (3,): the object's weight, used everywhere if there is no lighting
+    lighting      a skinglow.SurfaceLighting that fits the layout; divided by pi here, as light leaves skin diffusely
+    depth_per_mm  scene units per millimeter of the thickness attribute
     """
     row = np.ones((layout.width, 4), np.float32)
     size = len(columns)
@@ -109,23 +110,23 @@ def surface_row(
     row[layout.constant] = (*weight, depth_per_mm)
     row[layout.angular : layout.angular + 4, :3] = LAMBERT
     row[layout.object, :3] = weight
-    lamps = row[layout.lamps :].reshape(-1, 4, 4)
-    lamps[:] = DARK_TERM
+    slots = row[layout.terms :].reshape(-1, 4, 4)
+    slots[:] = DARK_TERM
     if layout.world:
-        row[layout.polynomial : layout.lamps] = 0.0
+        row[layout.polynomial : layout.terms] = 0.0
     if lighting is not None:
         row[layout.constant, :3] = 0.0
         row[layout.angular : layout.angular + 4, :3] = lighting.angular
         if layout.world:
-            row[layout.polynomial : layout.lamps, :3] = lighting.polynomial / np.pi
+            row[layout.polynomial : layout.terms, :3] = lighting.polynomial / np.pi
         terms, plain = lighting.terms, lighting.plain_terms
         terms[:, 2, :3] /= np.pi
-        lamps[:plain] = terms[:plain]
-        lamps[layout.plain : layout.plain + len(terms) - plain] = terms[plain:]
+        slots[:plain] = terms[:plain]
+        slots[layout.plain : layout.plain + len(terms) - plain] = terms[plain:]
     return row
 
 
 def shown_colors(row: np.ndarray, size: int, layout: Layout) -> np.ndarray:
-    """The lookup (size, 3) at the object's weight, float32, from a row with surface weights."""
+    """The lookup (size, 3) at the object's weight, float32, from the row of a skin that is lit per pixel."""
     columns = row[: layout.constant, :3].reshape(3, layout.entries, 3)[:, :size].astype(np.float64)
     return np.einsum("jnc,j->nc", columns, row[layout.object, :3].astype(np.float64)).astype(np.float32)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A small picture of a skin's lookup for the panel, thin skin at its left; values above 1 are shown as 1."""
+"""A thumbnail of a skin's lookup for the panel, thin skin on the left; values above 1 are clipped."""
 
 import bpy
 import bpy.utils.previews
@@ -10,14 +10,14 @@ from .errors import SkinError
 from .live_update import STATE
 from .skin import lut
 
-#: A square: Blender shows an icon in one, whatever its shape.
+#: Blender draws all icons as squares.
 WIDTH, HEIGHT = 64, 64
 _previews: bpy.utils.previews.ImagePreviewCollection | None = None
 _shown: dict[str, tuple] = {}
 
 
 def icon_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> int:
-    """The icon number of a skin's lookup, drawn again only when that changed; 0 where there is none."""
+    """The icon ID of a skin's lookup, redrawn only when that changed; 0 if there is none."""
     group = obj.skinglow.group
     atlas = STATE.atlases.get((group.name_full, depsgraph.mode)) if group is not None else None
     signature = atlas.signatures.get(obj.name_full) if atlas is not None else None
@@ -42,13 +42,13 @@ def icon_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> int:
 
 
 def register() -> None:
-    """Makes room for the pictures."""
+    """Creates the collection of thumbnails."""
     global _previews
     _previews = bpy.utils.previews.new()
 
 
 def unregister() -> None:
-    """Frees the pictures."""
+    """Frees the thumbnails."""
     global _previews
     if _previews is not None:
         bpy.utils.previews.remove(_previews)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that measure thickness: in a window beside the user's work, from a script straight through."""
+"""The operators that measure thickness: in the background of a window, synchronously from scripts."""
 
 from typing import ClassVar
 
@@ -11,27 +11,27 @@ from .measuring import Measuring
 from .operators import selected_meshes, selected_skins
 from .thickness_attribute import Geometry
 
-#: Seconds between two looks at the thread.
+#: Seconds between two checks of the thread.
 INTERVAL = 0.1
 
 
 class _MeasuringOperator:
-    """Measures first, and changes the file only when all is measured: cancelling loses nothing."""
+    """Measures first and changes the file only when everything is measured: canceling loses nothing."""
 
     bl_options = {"REGISTER", "UNDO"}
-    #: The one measuring under way, for the panel's bar and for the other operators' poll.
+    #: The running measurement, for the panel's progress bar and for the poll of other operators.
     current: ClassVar[Measuring | None] = None
 
     def to_measure(self, context: bpy.types.Context) -> dict[str, Geometry]:
-        """What has to be measured; raises SkinError for a mesh that cannot be."""
+        """The geometry to measure; raises SkinError for a mesh that cannot be measured."""
         raise NotImplementedError
 
     def finish(self, context: bpy.types.Context, names: list[str]) -> str:
-        """What is done with the meshes once their thickness is stored; returns what to tell."""
+        """Runs after the thickness of the meshes is stored; returns the message to report."""
         raise NotImplementedError
 
     def targets(self, context: bpy.types.Context) -> list[bpy.types.Object]:
-        """The objects that the operator is about."""
+        """The objects that the operator acts on."""
         raise NotImplementedError
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -69,13 +69,13 @@ class _MeasuringOperator:
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
         _show_progress(context)
-        # The thread ends a block of vertices first. Somebody who went into edit mode meanwhile comes out again, and
-        # the result waits for that.
+        # The thread first finishes a block of vertices. If the user has entered Edit Mode meanwhile, the result waits
+        # until they leave it.
         if measuring.running or (context.mode != "OBJECT" and not measuring.cancelled):
             return {"PASS_THROUGH"}
         self._end(context)
         if measuring.cancelled:
-            self.report({"INFO"}, "Measuring was cancelled; nothing was changed")
+            self.report({"INFO"}, "Measuring canceled, nothing was changed")
             return {"CANCELLED"}
         try:
             thicknesses = measuring.wait()
@@ -85,7 +85,7 @@ class _MeasuringOperator:
         return self._store(context, measuring.geometries, thicknesses)
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Blender's call when a file is loaded or the window closes."""
+        """Called by Blender when a file is loaded or the window is closed."""
         stop_measuring()
         self._end(context)
 
@@ -103,33 +103,33 @@ class _MeasuringOperator:
             self.report({"INFO"}, self.finish(context, self._names))
         except (SkinError, ValueError) as error:
             self.report({"ERROR"}, str(error))
-        # Also after a fault: some of the meshes may have changed, and Undo takes that back.
+        # Also after an error: some meshes may have changed, and Undo reverts that.
         return {"FINISHED"}
 
 
 def _object(name: str) -> bpy.types.Object:
-    """Undo in the meantime makes all references worthless, so objects are found again by name."""
+    """Undo invalidates all references, so objects are looked up by name."""
     for obj in bpy.data.objects:
         if obj.name_full == name:
             return obj
-    raise SkinError(f"'{name}' is gone; it was deleted or renamed while it was measured")
+    raise SkinError(f"'{name}' was deleted or renamed while it was measured")
 
 
 def _show_progress(context: bpy.types.Context) -> None:
     measuring = _MeasuringOperator.current
     names = ", ".join(measuring.geometries)
     if measuring.cancelled:
-        text = f"Cancelling: the thickness of {names} stays as it was"
+        text = f"Canceling: the thickness of {names} is kept"
     elif measuring.running:
         text = f"Measuring the thickness of {names}: {measuring.done:.0%}      Esc: cancel"
     else:
-        text = f"The thickness of {names} is measured: go back to object mode to take it over      Esc: cancel"
+        text = f"The thickness of {names} is measured: return to Object Mode to apply it      Esc: cancel"
     context.workspace.status_text_set(text)
     redraw_panels(context)
 
 
 def redraw_panels(context: bpy.types.Context) -> None:
-    """Has the panels drawn again."""
+    """Redraws the panels."""
     for window in context.window_manager.windows:
         for area in window.screen.areas:
             if area.type in ("VIEW_3D", "PROPERTIES"):
@@ -137,34 +137,33 @@ def redraw_panels(context: bpy.types.Context) -> None:
 
 
 def stop_measuring() -> None:
-    """Ends what is being measured, as when Blender ends or the add-on is taken away."""
+    """Stops a running measurement, as when Blender quits or the add-on is disabled."""
     if _MeasuringOperator.current is not None:
         _MeasuringOperator.current.cancel()
 
 
 def measuring_now() -> Measuring | None:
-    """The measuring under way."""
+    """The running measurement, or None."""
     return _MeasuringOperator.current
 
 
 def _may_measure(cls: type, context: bpy.types.Context) -> bool:
     if _MeasuringOperator.current is not None:
-        cls.poll_message_set("Thickness is being measured; Esc cancels that")
+        cls.poll_message_set("Thickness is being measured, Esc cancels")
     elif context.mode != "OBJECT":
-        cls.poll_message_set("Leave the mode you are in: works in object mode")
+        cls.poll_message_set("Only available in Object Mode")
     else:
         return True
     return False
 
 
 class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  Blender's naming
-    """Makes skins of the selected meshes."""
+    """Turns the selected meshes into skins."""
 
     bl_idname = "skinglow.make"
     bl_label = "Make Skin Glow"
     bl_description = (
-        "Measure the selected meshes' thickness in mm, put the glow behind the surface of their materials and let "
-        "the light of your lamps through, live"
+        "Measure the thickness of the selected meshes and let the light of the scene shine through their materials"
     )
 
     @classmethod
@@ -172,7 +171,7 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
         if not _may_measure(cls, context):
             return False
         if not selected_meshes(context):
-            cls.poll_message_set("Select a mesh that is to glow")
+            cls.poll_message_set("Select a mesh to make glow")
             return False
         return True
 
@@ -197,14 +196,16 @@ class SKINGLOW_OT_bake(_MeasuringOperator, bpy.types.Operator):  # noqa: N801
 
     bl_idname = "skinglow.bake"
     bl_label = "Measure Thickness"
-    bl_description = "Measure the selected skins' thickness again, mm, as after an edit of the mesh; Esc cancels"
+    bl_description = (
+        "Measure the thickness of the selected skins again, for example after editing the mesh; Esc cancels"
+    )
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if not _may_measure(cls, context):
             return False
         if not selected_skins(context):
-            cls.poll_message_set("Select a skin, or make one with 'Make Skin Glow'")
+            cls.poll_message_set("Select a skin, or create one with Make Skin Glow")
             return False
         return True
 
@@ -221,11 +222,11 @@ class SKINGLOW_OT_bake(_MeasuringOperator, bpy.types.Operator):  # noqa: N801
 
 
 class SKINGLOW_OT_cancel_measuring(bpy.types.Operator):  # noqa: N801
-    """Stops the measuring from the panel."""
+    """Cancels a measurement from the panel."""
 
     bl_idname = "skinglow.cancel_measuring"
     bl_label = "Cancel Measuring Thickness"
-    bl_description = "Stop measuring; everything stays as it was before"
+    bl_description = "Stop measuring without changing anything"
     bl_options = {"INTERNAL"}
 
     @classmethod
@@ -233,7 +234,7 @@ class SKINGLOW_OT_cancel_measuring(bpy.types.Operator):  # noqa: N801
         return _MeasuringOperator.current is not None
 
     def execute(self, _context: bpy.types.Context) -> set[str]:
-        # The operator that started it sees this and ends.
+        # The operator that started the measurement checks this and ends.
         _MeasuringOperator.current.cancelled = True
         return {"FINISHED"}
 
@@ -248,7 +249,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Takes them away, also as Blender ends: its end must not meet a thread that runs Python."""
+    """Removes the operators, also when Blender quits: no thread may run Python then."""
     stop_measuring()
     for each in reversed(CLASSES):
         bpy.utils.unregister_class(each)

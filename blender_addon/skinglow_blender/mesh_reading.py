@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Evaluated meshes as arrays, read again only where they changed."""
+"""Evaluated meshes as arrays, reread only when they changed."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,20 +13,20 @@ _versions = count()
 
 
 class MeshArrays(NamedTuple):
-    """A mesh in its own space."""
+    """A mesh in object space."""
 
-    version: int  #: another one for every other content
-    address: int  #: of Blender's own data; 0 for a copy that is gone
+    version: int  #: different for different contents
+    address: int  #: of Blender's own data; 0 for a temporary copy
     vertices: np.ndarray  #: (n, 3) float32
     triangles: np.ndarray  #: (m, 3) int32
 
 
 class MeshCache:
-    """The meshes of the last walk through a scene.
+    """The meshes of the last pass over a scene.
 
-    Blender does not say reliably what changed (nothing at all in renders), so places are compared, which takes a few
-    milliseconds for a million vertices. Triangles take a hundred times as long: they are read where places, sizes or
-    the address of the data are others than before, or where Blender reports another geometry.
+    Blender does not report changes reliably (in renders not at all), so vertex positions are compared, which takes a
+    few milliseconds per million vertices. Reading triangles takes a hundred times as long: that is done only if
+    positions, sizes or the address of the data differ from before, or if Blender reports changed geometry.
     """
 
     def __init__(self) -> None:
@@ -36,19 +36,19 @@ class MeshCache:
         self._reported: set[str] = set()
 
     def start(self, depsgraph: bpy.types.Depsgraph) -> None:
-        """A walk through that depsgraph begins; what the last one did not see is forgotten."""
+        """Starts a pass over a depsgraph; meshes that the last pass did not read are dropped."""
         self._before, self._now, self._by_address = self._now, {}, {}
         self._reported = {update.id.name_full for update in depsgraph.updates if update.is_updated_geometry}
 
     def read(self, obj: bpy.types.Object) -> MeshArrays:
         """The arrays of an evaluated object."""
         with evaluated_mesh(obj) as mesh:
-            # Many instances show one mesh. A copy is gone by the next, which may come to the same address.
+            # Many instances share one mesh. A temporary copy is freed, and the next may get the same address.
             address = mesh.as_pointer() if obj.mode != "EDIT" else 0
             if address in self._by_address:
                 return self._by_address[address]
             vertices = _vertices(mesh)
-            # An object may show several meshes of one size, as instances: told apart by their order.
+            # Instances of one object may show several meshes of the same size: distinguished by their order.
             name = (obj.original.name_full, len(vertices), len(mesh.loops), len(mesh.polygons))
             key = next((*name, i) for i in count() if (*name, i) not in self._now)
             arrays = self._now[key] = self._arrays(obj, mesh, address, vertices, self._before.get(key))
@@ -59,21 +59,21 @@ class MeshCache:
     def _arrays(
         self, obj: bpy.types.Object, mesh: bpy.types.Mesh, address: int, vertices: np.ndarray, old: MeshArrays | None
     ) -> MeshArrays:
-        in_place = old is not None and np.array_equal(old.vertices, vertices)
+        same_positions = old is not None and np.array_equal(old.vertices, vertices)
         reported = not self._reported.isdisjoint((obj.name_full, mesh.name_full))
-        if in_place and address and address == old.address and not reported:
+        if same_positions and address and address == old.address and not reported:
             return old
         mesh.calc_loop_triangles()
         triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
         mesh.loop_triangles.foreach_get("vertices", triangles)
         triangles = triangles.reshape(-1, 3)
-        same = in_place and np.array_equal(old.triangles, triangles)
+        same = same_positions and np.array_equal(old.triangles, triangles)
         return MeshArrays(old.version if same else next(_versions), address, vertices, triangles)
 
 
 @contextmanager
 def evaluated_mesh(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
-    """An evaluated object's mesh; in edit mode, where its data may not hold one yet, a copy."""
+    """An evaluated object's mesh; in edit mode, where its data may not be up to date, a temporary copy."""
     if obj.mode != "EDIT":
         yield obj.data
         return
@@ -84,7 +84,7 @@ def evaluated_mesh(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
 
 
 def _vertices(mesh: bpy.types.Mesh) -> np.ndarray:
-    """(n, 3) float32. By the attribute, where there is one (3.5): seventy times as fast."""
+    """(n, 3) float32. Read from the attribute if there is one (3.5): seventy times as fast."""
     values = np.empty(3 * len(mesh.vertices), np.float32)
     if "position" in mesh.attributes:
         mesh.attributes["position"].data.foreach_get("vector", values)

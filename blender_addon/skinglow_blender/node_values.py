@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a node's socket holds, as far as it can be told without running the nodes."""
+"""Values of node sockets, as far as they are known without evaluating the nodes."""
 
 import bpy
 
 
 def linked_node(socket: bpy.types.NodeSocket) -> bpy.types.Node | None:
-    """The node linked to an input, past reroutes; None where nothing is."""
+    """The node linked to an input, skipping reroutes; None if nothing is linked."""
     link = linked_socket(socket)
     return link.node if link is not None else None
 
 
 def linked_socket(socket: bpy.types.NodeSocket) -> bpy.types.NodeSocket | None:
-    """The output linked to an input, past reroutes; None where nothing is."""
+    """The output linked to an input, skipping reroutes; None if nothing is linked."""
     if not socket.is_linked:
         return None
     source = socket.links[0].from_socket
@@ -21,10 +21,10 @@ def linked_socket(socket: bpy.types.NodeSocket) -> bpy.types.NodeSocket | None:
 
 
 def socket_value(socket: bpy.types.NodeSocket) -> tuple[object, str]:
-    """An input's value and a note of what could not be followed.
+    """An input's value and a note of what is not supported.
 
-    Plain values and RGB and Value nodes are followed; of anything else linked in, the socket's own value is taken and
-    the note says so.
+    Unlinked values and RGB and Value nodes are supported. For any other linked node the socket's own value is returned,
+    and the note says so.
     """
     node = linked_node(socket)
     if node is None:
@@ -36,4 +36,7 @@ def socket_value(socket: bpy.types.NodeSocket) -> tuple[object, str]:
         if socket.type == "VALUE" and not isinstance(value, float):
             return socket.default_value, f"its node '{node.name}' is a color linked to {socket.name}"
         return value, ""
-    return socket.default_value, f"its node '{node.name}' is not followed; {socket.name}'s own value is used"
+    return (
+        socket.default_value,
+        f"its node '{node.name}' is not supported; the value stored in the {socket.name} input is used",
+    )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which share of each lamp's light other objects let through to a skin's far side (mode physical)."""
+"""Fraction of each light that other objects let through to a skin's far side (mode physical)."""
 
 from typing import Any, NamedTuple
 
@@ -9,7 +9,7 @@ import numpy as np
 from .errors import SkinError, core
 from .far_side import FarSide, far_side_of
 from .mesh_reading import MeshCache
-from .scene_lights import Lamp, make_light
+from .scene_lights import SceneLight, make_light
 from .scene_reading import SceneReading, Skin
 
 
@@ -18,126 +18,132 @@ class _Body(NamedTuple):
 
     key: str  #: of the original object
     version: int  #: of its mesh
-    matrix: tuple[float, ...]  #: to the world, row by row
+    matrix: tuple[float, ...]  #: object to world, row-major
 
 
-class _Walk(NamedTuple):
-    """What one walk through a depsgraph found."""
+class _Pass(NamedTuple):
+    """The result of one pass over a depsgraph."""
 
     bodies: list[_Body]
     meshes: dict[int, Any]  #: arrays by version
-    places: dict[str, FarSide]  #: far sides of the skins asked for, by key
-    own: dict[str, int]  #: index of each such skin's own body, where it casts shadows
+    far_sides: dict[str, FarSide]  #: of the requested skins, by key
+    own: dict[str, int]  #: index of each such skin's own body, if it casts shadows
 
 
 class _Occluders:
-    """The occluders of one kind of depsgraph: built again only when one of them changed."""
+    """The occluders of one depsgraph mode, rebuilt only when one of them changes."""
 
     def __init__(self) -> None:
         self.meshes = MeshCache()
         self.bodies: list[_Body] | None = None
         self.scene: Any = None  #: a skinglow.Occluders
 
-    def update(self, walk: _Walk) -> None:
-        if self.bodies == walk.bodies:
+    def update(self, found: _Pass) -> None:
+        if self.bodies == found.bodies:
             return
         self.bodies = self.scene = None
-        near = next((far.points for far in walk.places.values() if len(far.points)), None)
+        near = next((far.points for far in found.far_sides.values() if len(far.points)), None)
         meshes = []
-        for body in walk.bodies:
-            arrays = walk.meshes[body.version]
+        for body in found.bodies:
+            arrays = found.meshes[body.version]
             matrix = np.array(body.matrix).reshape(4, 4)
             meshes.append((arrays.vertices @ matrix[:3, :3].T + matrix[:3, 3], arrays.triangles))
-        # Single precision is best about the origin: there, where the skins are.
+        # Rays are traced in single precision, which is finest about the origin: put that where the skins are.
         self.scene = core().Occluders(meshes, near.mean(axis=0) if near is not None else None)
-        self.bodies = walk.bodies
+        self.bodies = found.bodies
 
 
-#: By the depsgraph's mode: viewport and render show different objects.
-_kept: dict[str, _Occluders] = {}
+#: By depsgraph mode: viewport and render show different objects.
+_by_mode: dict[str, _Occluders] = {}
 
 
 def forget(mode: str | None = None) -> None:
-    """Frees what is kept for a depsgraph's mode, or for both."""
-    for each in [mode] if mode is not None else list(_kept):
-        _kept.pop(each, None)
+    """Frees the occluders of a depsgraph mode, or of both."""
+    for each in [mode] if mode is not None else list(_by_mode):
+        _by_mode.pop(each, None)
 
 
-def with_visible_shares(reading: SceneReading, depsgraph: bpy.types.Depsgraph, faults: dict[str, str]) -> SceneReading:
-    """The reading with what each skin sees of each lamp; as it is where the scene's occlusion is off.
+def with_visible_fractions(
+    reading: SceneReading, depsgraph: bpy.types.Depsgraph, faults: dict[str, str]
+) -> SceneReading:
+    """The reading with each light's visible fraction from each skin; unchanged if the scene's occlusion is off.
 
-    A skin that cannot be traced goes out of the reading and into the faults: it keeps its last good lookup.
+    A skin whose rays cannot be traced is removed from the reading and added to the faults; it keeps its last good
+    lookup.
     """
     if not depsgraph.scene.skinglow.occlusion:
         forget()
         return reading
-    asking = {skin.key: skin for _obj, skin in reading.skins if skin.mode == "PHYSICAL"}
-    if not asking or not reading.lamps:
+    requested = {skin.key: skin for _obj, skin in reading.skins if skin.mode == "PHYSICAL"}
+    if not requested or not reading.lights:
         return reading
     try:
-        shares = _visible_shares(asking, reading.lamps, depsgraph)
+        fractions = _visible_fractions(requested, reading.lights, depsgraph)
     except (SkinError, ValueError, RuntimeError, MemoryError) as error:
         forget(depsgraph.mode)
         faults.update(
-            {key: f"{skin.name}: its lamps' occlusion cannot be traced: {error}" for key, skin in asking.items()}
+            {key: f"{skin.name}: the occlusion of its lights failed: {error}" for key, skin in requested.items()}
         )
-        return reading._replace(skins=[(obj, skin) for obj, skin in reading.skins if skin.key not in asking])
-    lamps = [
-        lamp._replace(visible={key: row[i] for key, row in shares.items()}) for i, lamp in enumerate(reading.lamps)
+        return reading._replace(skins=[(obj, skin) for obj, skin in reading.skins if skin.key not in requested])
+    lights = [
+        light._replace(visible={key: row[i] for key, row in fractions.items()})
+        for i, light in enumerate(reading.lights)
     ]
-    return reading._replace(lamps=lamps)
+    return reading._replace(lights=lights)
 
 
-def _visible_shares(
-    skins: dict[str, Skin], lamps: list[Lamp], depsgraph: bpy.types.Depsgraph
+def _visible_fractions(
+    skins: dict[str, Skin], lights: list[SceneLight], depsgraph: bpy.types.Depsgraph
 ) -> dict[str, list[float]]:
-    """For each skin one share per lamp, 0 to 1."""
+    """For each skin one fraction per light, 0 to 1."""
     if not hasattr(core(), "Occluders"):
-        raise SkinError("this build of the core traces no rays (it was made without Embree); switch Occlusion off")
-    kept = _kept.setdefault(depsgraph.mode, _Occluders())
-    walk = _walk(depsgraph, skins, kept.meshes)
-    kept.update(walk)
-    shares = {}
+        raise SkinError("this build of the core was made without Embree and traces no rays; turn Occlusion off")
+    occluders = _by_mode.setdefault(depsgraph.mode, _Occluders())
+    found = _read_pass(depsgraph, skins, occluders.meshes)
+    occluders.update(found)
+    fractions = {}
     for key, skin in skins.items():
-        row = [1.0] * len(lamps)
-        far = walk.places.get(key)
+        row = [1.0] * len(lights)
+        far = found.far_sides.get(key)
         traced = [
-            i for i, lamp in enumerate(lamps) if lamp.casts_shadows and not lamp.left_out and lamp.lights(skin.name)
+            i
+            for i, light in enumerate(lights)
+            if light.casts_shadows and not light.unlit_reason and light.lights(skin.name)
         ]
         if far is not None and traced:
-            own = [walk.own[key]] if key in walk.own else []
-            lights = [make_light(lamps[i]) for i in traced]
-            found = kept.scene.visible_share(lights, far.points, far.normals, without=own).mean
-            for i, share in zip(traced, found, strict=True):
-                row[i] = float(share)
-        shares[key] = row
-    return shares
+            own = [found.own[key]] if key in found.own else []
+            core_lights = [make_light(lights[i]) for i in traced]
+            visible = occluders.scene.visible_share(core_lights, far.points, far.normals, without=own).mean
+            for i, fraction in zip(traced, visible, strict=True):
+                row[i] = float(fraction)
+        fractions[key] = row
+    return fractions
 
 
-def _walk(depsgraph: bpy.types.Depsgraph, skins: dict[str, Skin], cache: MeshCache) -> _Walk:
-    """Bodies in the depsgraph's order, and the skins' far sides; instances hold good only while it is walked."""
-    walk = _Walk([], {}, {}, {})
+def _read_pass(depsgraph: bpy.types.Depsgraph, skins: dict[str, Skin], cache: MeshCache) -> _Pass:
+    """Reads bodies in depsgraph order, and the skins' far sides; instances are valid during the iteration only."""
+    found = _Pass([], {}, {}, {})
     layer = depsgraph.view_layer if depsgraph.mode == "VIEWPORT" else None
     cache.start(depsgraph)
     for instance in depsgraph.object_instances:
         obj, parent = instance.object, instance.parent
         if obj.type != "MESH" or not instance.show_self:
             continue
-        # A collection hidden by its eye in the outliner is in the viewport's depsgraph all the same.
+        # Collections hidden in the viewport by their eye icon are still in the viewport's depsgraph.
         if layer is not None and not (parent if instance.is_instance else obj).original.visible_get(view_layer=layer):
             continue
         key = obj.original.name_full
         matrix = instance.matrix_world
-        is_skin = key in skins and key not in walk.places
+        is_skin = key in skins and key not in found.far_sides
         if is_skin:
-            walk.places[key] = far_side_of(obj, matrix, skins[key])
+            found.far_sides[key] = far_side_of(obj, matrix, skins[key])
         if not obj.visible_shadow or (instance.is_instance and not parent.visible_shadow):
             continue
         arrays = cache.read(obj)
         if not len(arrays.triangles):
             continue
         if is_skin:
-            walk.own[key] = len(walk.bodies)
-        walk.meshes[arrays.version] = arrays
-        walk.bodies.append(_Body(key, arrays.version, tuple(value for row in matrix for value in row)))
-    return walk
+            found.own[key] = len(found.bodies)
+        found.meshes[arrays.version] = arrays
+        found.bodies.append(_Body(key, arrays.version, tuple(value for row in matrix for value in row)))
+    return found

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panel's buttons do; each can be undone, and says in words what went wrong."""
+"""The operators of the panel; each supports undo and reports errors as messages."""
 
 from collections.abc import Callable
 
@@ -20,7 +20,7 @@ def selected_meshes(context: bpy.types.Context) -> list[bpy.types.Object]:
 
 
 def selected_skins(context: bpy.types.Context) -> list[bpy.types.Object]:
-    """The selected skins; the active one where none is selected, as after a click on a lamp of the list."""
+    """The selected skins; the active one if none is selected, as after selecting a light in the list."""
     skins = [obj for obj in selected_meshes(context) if obj.skinglow.enabled]
     active = context.object
     if not skins and active is not None and active.type == "MESH" and active.skinglow.enabled:
@@ -29,7 +29,7 @@ def selected_skins(context: bpy.types.Context) -> list[bpy.types.Object]:
 
 
 class _SkinOperator:
-    """Turns what the add-on raises into a message of Blender's."""
+    """Reports the add-on's exceptions as Blender messages."""
 
     bl_options = {"REGISTER", "UNDO"}
 
@@ -46,20 +46,20 @@ class _SelectedSkins(_SkinOperator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if context.mode != "OBJECT":
-            cls.poll_message_set("Leave the mode you are in: works in object mode")
+            cls.poll_message_set("Only available in Object Mode")
         elif not selected_skins(context):
-            cls.poll_message_set("Select a skin, or make one with 'Make Skin Glow'")
+            cls.poll_message_set("Select a skin, or create one with Make Skin Glow")
         else:
             return True
         return False
 
 
 class SKINGLOW_OT_remove(_SelectedSkins, bpy.types.Operator):  # noqa: N801  Blender's naming
-    """Takes skins away."""
+    """Removes skins."""
 
     bl_idname = "skinglow.remove"
     bl_label = "Remove Skin Glow"
-    bl_description = "Take away all that the add-on brought to the selected skins; their materials are as before"
+    bl_description = "Remove Skinglow from the selected objects and restore their materials"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         def remove() -> str:
@@ -72,18 +72,18 @@ class SKINGLOW_OT_remove(_SelectedSkins, bpy.types.Operator):  # noqa: N801  Ble
 
 
 class SKINGLOW_OT_reset(_SelectedSkins, bpy.types.Operator):  # noqa: N801
-    """Sets skins back to the defaults."""
+    """Resets skins to the defaults."""
 
     bl_idname = "skinglow.reset"
     bl_label = "Reset Skin Glow"
-    bl_description = "Set everything about the selected skins back to the defaults; the measured thickness stays"
+    bl_description = "Reset all settings of the selected skins to their defaults; the measured thickness is kept"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         def reset() -> str:
             names = [obj.name for obj in selected_skins(context)]
             for obj in selected_skins(context):
                 skin.reset_settings(obj)
-            return f"{', '.join(names)}: back to the defaults"
+            return f"Reset to defaults: {', '.join(names)}"
 
         return self.attempt(reset)
 
@@ -93,39 +93,39 @@ class _AnySkin(_SkinOperator):
     def poll(cls, _context: bpy.types.Context) -> bool:
         if skin_groups():
             return True
-        cls.poll_message_set("There is no skin in this file yet: select a mesh and press 'Make Skin Glow'")
+        cls.poll_message_set("This file has no skin yet: select a mesh and use Make Skin Glow")
         return False
 
 
 class SKINGLOW_OT_update(_AnySkin, bpy.types.Operator):  # noqa: N801
-    """Computes every skin afresh."""
+    """Recomputes all skins."""
 
     bl_idname = "skinglow.update"
-    bl_label = "Update Skin Glow Now"
-    bl_description = "Compute every skin afresh, also those that are not live; base lookup images are read again"
+    bl_label = "Update Skin Glow"
+    bl_description = "Recompute all skins, including those that are not live, and reload base lookup images"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         def update() -> str:
             base_of_image.cache_clear()
             STATE.forget()
             names = [rebuilt.skin for rebuilt in skin.update(context.evaluated_depsgraph_get())]
-            return f"Computed afresh: {', '.join(names) or 'nothing, as this view layer shows no skin'}"
+            return f"Recomputed: {', '.join(names) or 'nothing, as this view layer has no skin'}"
 
         return self.attempt(update)
 
 
 class SKINGLOW_OT_export_povray(_AnySkin, bpy.types.Operator):  # noqa: N801
-    """Writes POV-Ray scenes. There is nothing to undo: it changes no data of Blender's."""
+    """Writes POV-Ray scenes. No undo: it changes no Blender data."""
 
     bl_idname = "skinglow.export_povray"
     bl_label = "Export Skin Glow to POV-Ray"
-    bl_description = "Write the scene's skins with camera, lamps and lookup as POV-Ray 3.7 files into a folder"
+    bl_description = "Write the skins of the scene with camera, lights and lookup as POV-Ray 3.7 files to a folder"
     bl_options = {"REGISTER"}
 
-    directory: StringProperty(subtype="DIR_PATH", description="Folder to write into")
+    directory: StringProperty(subtype="DIR_PATH", description="Folder to write to")
     filter_folder: BoolProperty(default=True, options={"HIDDEN"})
     surface: BoolProperty(
-        name="Surface", default=True, description="Also the surface; off: only the light coming through"
+        name="Surface", default=True, description="Export the surface too; if disabled, only the transmitted light"
     )
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
@@ -135,7 +135,7 @@ class SKINGLOW_OT_export_povray(_AnySkin, bpy.types.Operator):  # noqa: N801
     def execute(self, context: bpy.types.Context) -> set[str]:
         def export() -> str:
             if not self.directory:
-                raise SkinError("No folder is given to write the POV-Ray files into: choose one")
+                raise SkinError("No folder selected for the POV-Ray files")
             graph = context.evaluated_depsgraph_get()
             files = povray_export.export_povray(graph, bpy.path.abspath(self.directory), surface=self.surface)
             return f"{len(files)} files written to {self.directory}"
@@ -144,35 +144,35 @@ class SKINGLOW_OT_export_povray(_AnySkin, bpy.types.Operator):  # noqa: N801
 
 
 class SKINGLOW_OT_select_light(_SkinOperator, bpy.types.Operator):  # noqa: N801
-    """From a line of the list to the lamp in the scene; the skin stays active, and so the list in sight."""
+    """Selects the light of a row in the list; the skin stays active, so that the list stays visible."""
 
     bl_idname = "skinglow.select_light"
-    bl_label = "Select Light of Skin"
-    bl_description = "Select this lamp in the scene; the skin stays the active object, so that this list stays"
+    bl_label = "Select Light"
+    bl_description = "Select this light in the scene and keep the skin as the active object"
     bl_options = {"REGISTER", "UNDO", "INTERNAL"}
 
-    light: StringProperty(name="Light", description="Name of the lamp, or '<lamp> in <what instances it>'")
+    light: StringProperty(name="Light", description="Name of the light, or '<light> in <instancer>'")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if context.mode == "OBJECT":
             return True
-        cls.poll_message_set("Leave the mode you are in: works in object mode")
+        cls.poll_message_set("Only available in Object Mode")
         return False
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         def select() -> str:
             objects = context.view_layer.objects
-            # An instanced lamp has no place of its own to be selected at: what instances it has.
-            lamp = objects.get(self.light) or objects.get(self.light.rpartition(" in ")[2])
-            if lamp is None:
-                raise SkinError(f"'{self.light}' is not in this view layer: include its collection to select it")
-            if lamp.hide_select or not lamp.visible_get():
-                raise SkinError(f"'{lamp.name}' is hidden or cannot be selected: show it in the outliner first")
+            # An instance cannot be selected: its instancer can.
+            light = objects.get(self.light) or objects.get(self.light.rpartition(" in ")[2])
+            if light is None:
+                raise SkinError(f"'{self.light}' is not in this view layer: enable its collection to select it")
+            if light.hide_select or not light.visible_get():
+                raise SkinError(f"'{light.name}' is hidden or not selectable: enable that in the Outliner first")
             for obj in context.selected_objects:
                 obj.select_set(False)
-            lamp.select_set(True)
-            return f"{lamp.name} selected"
+            light.select_set(True)
+            return f"{light.name} selected"
 
         return self.attempt(select)
 
@@ -193,6 +193,6 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Takes them away."""
+    """Removes the operators."""
     for each in reversed(CLASSES):
         bpy.utils.unregister_class(each)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel and its parts, each both in the 3D view's sidebar and in the object's properties."""
+"""The panel and its subpanels, both in the sidebar of the 3D Viewport and in the Object properties."""
 
 import bpy
 
@@ -13,7 +13,7 @@ from .wrapped_text import draw_wrapped
 
 
 def is_skin(obj: bpy.types.Object | None) -> bool:
-    """Whether the panel has a skin to show."""
+    """Whether the object is a skin to show in the panel."""
     return obj is not None and obj.type == "MESH" and obj.skinglow.enabled
 
 
@@ -47,11 +47,11 @@ def _draw_start(layout: bpy.types.UILayout, obj: bpy.types.Object | None, contex
     button.scale_y = 1.5
     button.operator("skinglow.make", icon="LIGHT_SUN")
     if obj is None or obj.type != "MESH":
-        draw_wrapped(layout.column(align=True), "Select the mesh that is to glow", context, icon="INFO")
+        draw_wrapped(layout.column(align=True), "Select a mesh to make glow", context, icon="INFO")
         return
     column = layout.column(align=True)
     column.use_property_split, column.use_property_decorate = True, False
-    column.prop(obj.skinglow, "unit_mm", text="Unit, mm")
+    column.prop(obj.skinglow, "unit_mm", text="Unit (mm)")
     across = max(obj.dimensions) * unit_mm(obj, context.scene)
     column.label(text=f"{obj.name} is {across:.4g} mm across", icon="DRIVER_DISTANCE")
 
@@ -59,7 +59,7 @@ def _draw_start(layout: bpy.types.UILayout, obj: bpy.types.Object | None, contex
 def _draw_progress(layout: bpy.types.UILayout) -> None:
     measuring = measuring_now()
     row = layout.row(align=True)
-    text = "Cancelling" if measuring.cancelled else f"Measuring: {measuring.done:.0%}"
+    text = "Canceling" if measuring.cancelled else f"Measuring: {measuring.done:.0%}"
     if hasattr(row, "progress"):
         row.progress(factor=measuring.done, text=text)
     else:
@@ -68,7 +68,7 @@ def _draw_progress(layout: bpy.types.UILayout) -> None:
 
 
 class _Part:
-    """A part that is there for skins only."""
+    """A subpanel that is shown for skins only."""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -123,8 +123,8 @@ class _Remove(_Part):
         row.operator("skinglow.remove", text="Remove", icon="TRASH")
 
 
-#: Where the panels stand: name, and what Blender asks for.
-PLACES = (
+#: Where the panels are shown: name and Blender's attributes.
+LOCATIONS = (
     ("sidebar", {"bl_space_type": "VIEW_3D", "bl_region_type": "UI", "bl_category": "Skinglow"}),
     ("object", {"bl_space_type": "PROPERTIES", "bl_region_type": "WINDOW", "bl_context": "object"}),
 )
@@ -133,13 +133,13 @@ PARTS = (_Look, _Lights, _Thickness, _Lookup, _Export, _Remove)
 
 def _panel_classes() -> list[type]:
     made = []
-    for place, where in PLACES:
-        main = f"SKINGLOW_PT_{place}"
-        closed = {"bl_options": {"DEFAULT_CLOSED"}} if place == "object" else {}
-        made.append(type(main, (_Main, bpy.types.Panel), {**where, **closed, "bl_idname": main}))
+    for location, attributes in LOCATIONS:
+        main = f"SKINGLOW_PT_{location}"
+        closed = {"bl_options": {"DEFAULT_CLOSED"}} if location == "object" else {}
+        made.append(type(main, (_Main, bpy.types.Panel), {**attributes, **closed, "bl_idname": main}))
         for part in PARTS:
             name = f"{main}{part.__name__.lower()}"
-            made.append(type(name, (part, bpy.types.Panel), {**where, "bl_idname": name, "bl_parent_id": main}))
+            made.append(type(name, (part, bpy.types.Panel), {**attributes, "bl_idname": name, "bl_parent_id": main}))
     return made
 
 
@@ -153,6 +153,6 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Takes them away."""
+    """Removes the panels."""
     for each in reversed(CLASSES):
         bpy.utils.unregister_class(each)

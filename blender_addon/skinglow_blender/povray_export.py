@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The scene as POV-Ray files for comparison: same camera, mesh, lamps and lookup. The core writes the text."""
+"""Exports the scene to POV-Ray for comparison: same camera, mesh, lights and lookup. The core writes the text."""
 
 import os
 import shutil
@@ -15,7 +15,7 @@ from .scene_lights import make_light
 from .scene_reading import SceneReading, Skin, read_scene
 from .skin_group import THICKNESS_ATTRIBUTE
 from .skin_material import skin_node
-from .skin_tables import base_lut, compute_table, lamps_of
+from .skin_tables import base_lut, compute_table, lights_of
 from .texel_mapping import texels_per_mm
 
 LUT_FILE = "lut.exr"
@@ -30,18 +30,18 @@ def export_povray(
 ) -> list[Path]:
     """Writes a POV-Ray 3.7 scene of a skin; `povray scene.ini` in the folder renders it. Returns the files written.
 
-    obj          the skin; None: every skin of the depsgraph, each in a folder of its own if there are several
-    surface      False: the light coming through alone, without lamps
+    obj          the skin; None: every skin of the depsgraph, each in its own folder if there are several
+    surface      False: only the transmitted light, without lights
     compute_lut  True: POV-Ray computes the lookup by Eq. 1 to 3 itself (mode paper); False: it reads the EXR
-    Only what the scene uses is written. Raises SkinError where there is no camera, no skin or no way to write.
+    Only what the scene uses is written. Raises SkinError if there is no camera or skin, or if writing fails.
     """
     reading = read_scene(depsgraph)
     skins = [skin for original, skin in reading.skins if obj is None or original == obj.original]
     if not skins:
         what = "no skin" if obj is None else f"no skin '{obj.name}'"
-        raise SkinError(f"There is {what} to export in this view layer: make one first, and do not hide it")
+        raise SkinError(f"There is {what} to export in this view layer: make one first, and unhide it")
     if depsgraph.scene.camera is None:
-        raise SkinError("The scene has no camera: POV-Ray needs one to look through")
+        raise SkinError("The scene has no camera: POV-Ray needs one")
     written: list[Path] = []
     for skin in skins:
         folder = Path(directory) if len(skins) == 1 else Path(directory) / bpy.path.clean_name(skin.name)
@@ -62,7 +62,7 @@ def _export_skin(
     compute_lut: bool,
 ) -> list[Path]:
     if compute_lut and skin.mode != "PAPER":
-        raise SkinError(f"POV-Ray computes lookups of mode paper only; '{skin.name}' is in mode {skin.mode.lower()}")
+        raise SkinError(f"POV-Ray computes lookups in mode paper only; '{skin.name}' is in mode {skin.mode.lower()}")
     obj = bpy.data.objects[skin.name].evaluated_get(depsgraph)
     base = base_lut(skin.base)
     arguments: dict[str, Any] = _mesh_arguments(obj, skin, base)
@@ -77,14 +77,14 @@ def _export_skin(
     if "surface_image" not in arguments:
         arguments.pop("surface_uv", None)
     if not compute_lut:
-        written.append(_write_lut(compute_table(skin, reading.lamps, reading.world).colors, folder / LUT_FILE))
+        written.append(_write_lut(compute_table(skin, reading.lights, reading.world).colors, folder / LUT_FILE))
         arguments["image"] = LUT_FILE
     files = core().povray_scene(
         mode=skin.mode.lower(),
         base=base if skin.mode == "PAPER" else None,
         size=base.size,
         max_thickness_mm=base.max_thickness_mm,
-        lights=[make_light(lamp) for lamp in lamps_of(skin, reading.lamps)],
+        lights=[make_light(light) for light in lights_of(skin, reading.lights)],
         point=skin.point,
         coefficients=skin.attenuation,
         blood_weight=skin.blood_weight,
@@ -96,12 +96,12 @@ def _export_skin(
 
 
 def _mesh_arguments(obj: bpy.types.Object, skin: Skin, base: Any) -> dict[str, Any]:  # noqa: ANN401
-    """The evaluated mesh in world space, with the lookup's coordinate at each vertex."""
+    """The evaluated mesh in world space, with its lookup coordinate at each vertex."""
     mesh = obj.to_mesh()
     try:
         attribute = mesh.attributes.get(THICKNESS_ATTRIBUTE)
         if attribute is None or attribute.domain != "POINT":
-            raise SkinError(f"'{skin.name}': a modifier takes the thickness away (attribute '{THICKNESS_ATTRIBUTE}')")
+            raise SkinError(f"'{skin.name}': a modifier removes the thickness (attribute '{THICKNESS_ATTRIBUTE}')")
         thickness = np.empty(len(mesh.vertices), np.float32)
         attribute.data.foreach_get("value", thickness)
         points = np.empty(3 * len(mesh.vertices), np.float32)
@@ -147,7 +147,7 @@ def _camera_arguments(depsgraph: bpy.types.Depsgraph) -> dict[str, Any]:
 
 
 def _surface_arguments(obj: bpy.types.Object, folder: Path) -> tuple[dict[str, Any], list[Path]]:
-    """The surface's base color or picture; nothing where the surface gives back no light by itself."""
+    """The surface's base color or texture; empty if it has no Principled BSDF."""
     material = next((s.material for s in obj.material_slots if s.material and skin_node(s.material)), None)
     tree = blender_version.shader_tree(material) if material is not None else None
     principled = next((n for n in tree.nodes if n.bl_idname == "ShaderNodeBsdfPrincipled"), None) if tree else None
@@ -164,7 +164,7 @@ def _surface_arguments(obj: bpy.types.Object, folder: Path) -> tuple[dict[str, A
 
 
 def _copy_picture(image: bpy.types.Image, folder: Path) -> Path | None:
-    """A picture's own file, or what is packed, under its own name; None where neither is there."""
+    """Copies an image's packed or external file into the folder; None if it has neither."""
     source = Path(bpy.path.abspath(image.filepath, library=image.library))
     target = folder / f"surface{source.suffix.lower()}"
     if image.packed_file is not None:
@@ -178,7 +178,7 @@ def _copy_picture(image: bpy.types.Image, folder: Path) -> Path | None:
 
 
 def _write_lut(colors: np.ndarray, path: Path) -> Path:
-    """The table as a float32 EXR one texel high, by Blender's own writer; exact."""
+    """Writes the table as a float32 EXR one texel high, by Blender's own writer; exact."""
     image = bpy.data.images.new(".Skinglow export", len(colors), 1, alpha=False, float_buffer=True)
     partial = path.with_name(f".{path.name}.part.exr")
     try:
@@ -200,7 +200,7 @@ def _write_lut(colors: np.ndarray, path: Path) -> Path:
 
 
 def _write_whole(path: Path, text: str) -> Path:
-    """A text file, whole or not at all."""
+    """Writes a text file atomically."""
     partial = path.with_name(f".{path.name}.part")
     try:
         partial.write_text(text, encoding="utf-8")

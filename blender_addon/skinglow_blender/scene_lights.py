@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The lamps of an evaluated scene as `skinglow.Light`, with what decides whether anything changed."""
+"""The lights of an evaluated scene as `skinglow.Light`, and the signatures by which changes are detected."""
 
 from collections.abc import Mapping
 from functools import lru_cache
@@ -13,36 +13,36 @@ from . import blender_version, working_space
 from .errors import core
 from .light_nodes import node_factor
 
-#: What a lamp's signature holds, in words.
-FIELDS = ("name", "type", "color", "power", "position", "direction", "shape", "normalization", "visible share")
+#: The entries of a light's signature, as `Rebuilt.why` names them.
+FIELDS = ("name", "type", "color", "power", "position", "direction", "shape", "normalization", "visible fraction")
 
 
-class Lamp(NamedTuple):
-    """One lamp as it shines, an instance counting as a lamp of its own."""
+class SceneLight(NamedTuple):
+    """One light; each instance of a light is one of its own."""
 
     name: str
-    signature: tuple  #: all that its light depends on (FIELDS); equal signatures, equal light
+    signature: tuple  #: everything its emission depends on (FIELDS); equal signatures emit equal light
     receivers: frozenset[str] | None  #: names of the only objects it lights; None: all
     excluded: frozenset[str]  #: names of objects it does not light
-    left_out: str  #: why it gives no light, or ""
-    note: str  #: what could not be taken over, or ""
+    unlit_reason: str  #: why it emits nothing, or ""
+    note: str  #: what is not supported and was ignored, or ""
     casts_shadows: bool = True
-    visible: Mapping[str, float] = MappingProxyType({})  #: share seen, 0 to 1, by key of a skin; not there: all
+    visible: Mapping[str, float] = MappingProxyType({})  #: visible fraction, 0 to 1, by Skin.key; missing: 1
 
     def lights(self, obj_name: str) -> bool:
-        """Whether light linking lets this lamp reach that object."""
+        """Whether light linking lets this light illuminate that object."""
         if obj_name in self.excluded:
             return False
         return self.receivers is None or obj_name in self.receivers
 
-    def seen_by(self, skin_key: str) -> "Lamp":
-        """The lamp as far as that skin sees it."""
-        share = self.visible.get(skin_key, 1.0)
-        return self if share == 1.0 else self._replace(signature=(*self.signature[:-1], share))
+    def seen_by(self, skin_key: str) -> "SceneLight":
+        """The light reduced to the fraction of it that is visible from that skin."""
+        fraction = self.visible.get(skin_key, 1.0)
+        return self if fraction == 1.0 else self._replace(signature=(*self.signature[:-1], fraction))
 
 
-def read_lamp(obj: bpy.types.Object, matrix: Matrix, name: str) -> Lamp:
-    """Reads an evaluated lamp object that stands at that world matrix."""
+def read_light(obj: bpy.types.Object, matrix: Matrix, name: str) -> SceneLight:
+    """Reads an evaluated light object with the given world matrix."""
     light = obj.data
     kind = light.type
     color = tuple(light.color)
@@ -56,7 +56,7 @@ def read_lamp(obj: bpy.types.Object, matrix: Matrix, name: str) -> Lamp:
     tint = blender_version.light_temperature_color(light)
     if tint is not None:
         color = tuple(a * b for a, b in zip(color, tint, strict=True))
-    color, outside = working_space.lamp_color(color)
+    color, gamut_note = working_space.light_color(color)
     stops = blender_version.light_exposure(light)
     if stops != 0.0:
         power *= core().exposure_factor(stops)
@@ -67,15 +67,14 @@ def read_lamp(obj: bpy.types.Object, matrix: Matrix, name: str) -> Lamp:
     normalized = blender_version.light_is_normalized(light)
     signature = (name, kind, color, power, (px, py, pz), direction, shape, normalized, 1.0)
     receivers, excluded = _linked_objects(obj)
-    why_dark = _why_dark(obj, kind, direction)
-    return Lamp(
-        name, signature, receivers, excluded, why_dark, note or outside, blender_version.light_casts_shadows(light)
-    )
+    unlit_reason = _unlit_reason(obj, kind, direction)
+    casts_shadows = blender_version.light_casts_shadows(light)
+    return SceneLight(name, signature, receivers, excluded, unlit_reason, note or gamut_note, casts_shadows)
 
 
-def make_light(lamp: Lamp) -> Any:  # noqa: ANN401  a skinglow.Light
-    """The core's lamp; raises ValueError, naming lamp and field, where the core refuses it."""
-    return _light_of(lamp.signature)
+def make_light(light: SceneLight) -> Any:  # noqa: ANN401  a skinglow.Light
+    """The core's light; raises ValueError, naming light and field, if the core rejects it."""
+    return _light_of(light.signature)
 
 
 @lru_cache(maxsize=4096)
@@ -96,17 +95,17 @@ def _light_of(signature: tuple) -> Any:  # noqa: ANN401
 
 
 def _shape(light: bpy.types.Light, kind: str, matrix: Matrix) -> dict[str, Any]:
-    """The fields of `skinglow.Light` that only this kind has."""
+    """The fields of `skinglow.Light` that are specific to this kind."""
     if kind == "SUN":
         return {"sun_angle": light.angle}
     if kind == "AREA":
-        across, up = matrix.col[0], matrix.col[1]
+        x_axis, y_axis = matrix.col[0], matrix.col[1]
         size_y = light.size_y if light.shape in ("RECTANGLE", "ELLIPSE") else light.size
         return {
             "area_shape": "ELLIPSE" if light.shape in ("DISK", "ELLIPSE") else "RECTANGLE",
-            "size_x": light.size * across.to_3d().length,
-            "size_y": size_y * up.to_3d().length,
-            "tangent": tuple(across.to_3d()),
+            "size_x": light.size * x_axis.to_3d().length,
+            "size_y": size_y * y_axis.to_3d().length,
+            "tangent": tuple(x_axis.to_3d()),
             "spread": light.spread,
         }
     fields = {"radius": light.shadow_soft_size, "soft_falloff": getattr(light, "use_soft_falloff", True)}
@@ -117,18 +116,18 @@ def _shape(light: bpy.types.Light, kind: str, matrix: Matrix) -> dict[str, Any]:
     return fields
 
 
-def _why_dark(obj: bpy.types.Object, kind: str, direction: tuple[float, float, float]) -> str:
+def _unlit_reason(obj: bpy.types.Object, kind: str, direction: tuple[float, float, float]) -> str:
     if not obj.visible_diffuse:
-        return "its ray visibility leaves diffuse light out"
+        return "its ray visibility excludes diffuse rays"
     if kind == "AREA" and getattr(getattr(obj.data, "cycles", None), "is_portal", False):
-        return "it is a portal, which gives no light"
+        return "it is a portal, which emits no light"
     if kind != "POINT" and direction == (0.0, 0.0, 0.0):
-        return "its scale is 0, so that it has no direction"
+        return "its scale is 0, so it has no direction"
     return ""
 
 
 def _linked_objects(obj: bpy.types.Object) -> tuple[frozenset[str] | None, frozenset[str]]:
-    """Names of the objects a lamp is linked to (None: all) and of those it is kept from."""
+    """Names of the objects a light is linked to (None: all) and of those excluded from it."""
     collection = blender_version.light_receivers(obj)
     if collection is None:
         return None, frozenset()
@@ -140,5 +139,5 @@ def _linked_objects(obj: bpy.types.Object) -> tuple[frozenset[str] | None, froze
         for state, objects in zip(states, members, strict=True):
             names = {o.name for o in objects}
             (included if state.light_linking.link_state == "INCLUDE" else excluded).update(names)
-    # Only exclusions: the lamp lights everything else.
+    # With exclusions alone the light illuminates everything else.
     return (frozenset(included - excluded) if included else None), frozenset(excluded)

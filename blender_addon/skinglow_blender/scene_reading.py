@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One walk through an evaluated scene: which lamps and world shine in it, and which skins it shows where."""
+"""One pass over an evaluated scene: its lights, its world and its skins."""
 
 from math import pi
 from typing import NamedTuple
@@ -7,22 +7,22 @@ from typing import NamedTuple
 import bpy
 from mathutils import Matrix, Vector
 
-from .scene_lights import Lamp, read_lamp
+from .scene_lights import SceneLight, read_light
 from .scene_world import World, read_world
 from .skin_settings import TISSUE_SLIDERS, as_typed
 
 MM_PER_METER = 1000.0
-#: Mesh properties, of when its thickness was measured: edge of the cube that its unit cube filled, scene units;
-#: millimeters in a scene unit; the cone that holds its normals, in its own space: axis, half angle in radians.
+#: Mesh properties stored when its thickness was measured: edge length of its unit cube in the world, scene units;
+#: millimeters per scene unit; bounding cone of its normals in object space (axis, half angle in radians).
 MEASURED_SIZE = "skinglow_world_size"
 MEASURED_UNIT = "skinglow_unit_mm"
 MEASURED_CONE = "skinglow_normal_cone"
-#: A skin object's custom property that its node group reads: texels per mm, texel width, row, strength.
+#: Custom property of a skin object that its node group reads: texels per mm, texel width, row, strength.
 ROW_PROPERTY = "skinglow_lut"
 
 
 class Skin(NamedTuple):
-    """One skin as the scene shows it."""
+    """The evaluated settings of one skin."""
 
     name: str  #: of the object
     key: str  #: name with library: unique in the file
@@ -30,55 +30,55 @@ class Skin(NamedTuple):
     weights: str  #: 'OBJECT', 'SURFACE' or 'AUTO'; always 'OBJECT' where the mode is not physical
     live: bool
     strength: float
-    base: tuple  #: what the base lookup is made from
+    base: tuple  #: key of the base lookup (_base_key)
     blood_weight: tuple[float, float, float]
     attenuation: tuple[float, float, float]
-    point: tuple[float, float, float]  #: where distances are measured, world
-    world_size: float  #: edge of the cube that a unit cube of the object fills in the world, scene units
-    surface: "SurfaceBounds | None"  #: what weights on the surface ask for besides
+    point: tuple[float, float, float]  #: reference point of distances to the lights, world
+    world_size: float  #: edge length of the object's unit cube in the world, scene units
+    surface: "SurfaceBounds | None"  #: needed for light per pixel only
 
 
 class SurfaceBounds(NamedTuple):
-    """Where a skin's surface is and where its far side faces, in the world."""
+    """Bounds of a skin's surface and of the normals of its far side, in the world."""
 
-    least: tuple[float, float, float]
-    most: tuple[float, float, float]
-    facing: tuple[tuple[float, float, float], float]  #: cone of the far side's normals: axis, half angle
-    depth_per_mm: float  #: scene units for a millimeter of the thickness attribute
+    min: tuple[float, float, float]
+    max: tuple[float, float, float]
+    normal_cone: tuple[tuple[float, float, float], float]  #: of the far side: axis, half angle in radians
+    depth_per_mm: float  #: scene units per millimeter of the thickness attribute
 
 
 class SceneReading(NamedTuple):
-    """The lamps, skins and world of one depsgraph, in its order."""
+    """The lights, skins and world of one depsgraph, in depsgraph order."""
 
-    lamps: list[Lamp]
-    skins: list[tuple[bpy.types.Object, Skin]]  #: with the original object, valid until undo or load
+    lights: list[SceneLight]
+    skins: list[tuple[bpy.types.Object, Skin]]  #: with their original objects; invalid after undo or load
     world: World | None
 
 
 def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
-    """Reads a depsgraph; hidden objects are not in it, and viewport and render have lists of their own."""
-    lamps: list[Lamp] = []
+    """Reads a depsgraph. It holds no hidden objects, and viewport and render have different ones."""
+    lights: list[SceneLight] = []
     skins: list[tuple[bpy.types.Object, Skin]] = []
     seen: set[str] = set()
     may_instance = False
 
     layer = depsgraph.view_layer if depsgraph.mode == "VIEWPORT" else None
 
-    def shows(obj: bpy.types.Object) -> bool:
-        # A collection hidden by its eye in the outliner is in the viewport's depsgraph all the same.
+    def is_visible(obj: bpy.types.Object) -> bool:
+        # Collections hidden in the viewport by their eye icon are still in the viewport's depsgraph.
         return layer is None or obj.original.visible_get(view_layer=layer)
 
     def take(obj: bpy.types.Object, matrix: Matrix, instancer: bpy.types.Object | None) -> None:
         if obj.type == "LIGHT":
-            if shows(instancer or obj):
-                lamps.append(read_lamp(obj, matrix, f"{obj.name} in {instancer.name}" if instancer else obj.name))
+            if is_visible(instancer or obj):
+                lights.append(read_light(obj, matrix, f"{obj.name} in {instancer.name}" if instancer else obj.name))
         elif ROW_PROPERTY in obj and obj.type == "MESH" and obj.skinglow.enabled:
             skin = read_skin(obj, matrix)
             if skin.key not in seen:
                 seen.add(skin.key)
                 skins.append((obj.original, skin))
 
-    # Walking the instances of a scattered forest is slow, so they are only walked where something instances.
+    # Iterating over the instances of a scattered forest is slow: do so only if something in the scene instances.
     for obj in depsgraph.objects:
         take(obj, obj.matrix_world, None)
         may_instance = may_instance or obj.is_instancer or any(m.type == "NODES" for m in obj.modifiers)
@@ -86,11 +86,11 @@ def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
         for instance in depsgraph.object_instances:
             if instance.is_instance:
                 take(instance.object, instance.matrix_world, instance.parent)
-    return SceneReading(lamps, skins, read_world(depsgraph))
+    return SceneReading(lights, skins, read_world(depsgraph))
 
 
 def read_skin(obj: bpy.types.Object, matrix: Matrix) -> Skin:
-    """Reads the settings of an evaluated skin object (so that drivers and keyframes count) at that world matrix."""
+    """Reads the settings of an evaluated skin object (with drivers and keyframes applied) at that world matrix."""
     settings = obj.skinglow
     weights = settings.weights if settings.mode == "PHYSICAL" else "OBJECT"
     world_size = abs(matrix.to_3x3().determinant()) ** (1.0 / 3.0)
@@ -113,29 +113,29 @@ def read_skin(obj: bpy.types.Object, matrix: Matrix) -> Skin:
 def _surface_bounds(obj: bpy.types.Object, matrix: Matrix, world_size: float) -> SurfaceBounds:
     corners = [matrix @ Vector(corner) for corner in obj.bound_box]
     mesh = obj.original.data
-    # Modifiers bend the surface, uneven scales the cone.
+    # Modifiers change the normals, and a non-uniform scale distorts the cone.
     cone = mesh.get(MEASURED_CONE)
     scales = [column.to_3d().length for column in matrix.col[:3]]
     if cone is None or len(obj.modifiers) or max(scales) - min(scales) > 1e-4 * max(scales):
-        facing = ((0.0, 0.0, 1.0), pi)
+        normal_cone = ((0.0, 0.0, 1.0), pi)
     else:
-        facing = (tuple(-(matrix.to_3x3() @ Vector(cone[:3])).normalized()), cone[3])
+        normal_cone = (tuple(-(matrix.to_3x3() @ Vector(cone[:3])).normalized()), cone[3])
     return SurfaceBounds(
-        least=tuple(map(min, *corners)),
-        most=tuple(map(max, *corners)),
-        facing=facing,
-        depth_per_mm=grown(mesh, world_size) / mesh.get(MEASURED_UNIT, MM_PER_METER),
+        min=tuple(map(min, *corners)),
+        max=tuple(map(max, *corners)),
+        normal_cone=normal_cone,
+        depth_per_mm=scale_since_measured(mesh, world_size) / mesh.get(MEASURED_UNIT, MM_PER_METER),
     )
 
 
-def grown(mesh: bpy.types.Mesh, world_size: float) -> float:
-    """How much larger, and so thicker, a mesh has become by its object's scale since it was measured."""
+def scale_since_measured(mesh: bpy.types.Mesh, world_size: float) -> float:
+    """Factor by which the object's scale has made a mesh larger, and so thicker, since it was measured."""
     measured = mesh.get(MEASURED_SIZE, world_size)
     return world_size / measured if measured > 0.0 else 1.0
 
 
 def _base_key(settings: bpy.types.PropertyGroup) -> tuple:
-    """(kind, entries, mm of the last, ...): all that the base lookup is made from."""
+    """(kind, size, max thickness in mm, ...): everything the base lookup depends on."""
     size, max_thickness = settings.size, as_typed(settings.max_thickness_mm)
     if settings.mode == "PHYSICAL" or (settings.mode == "PAPER" and settings.base == "SKIN"):
         kind = "TISSUE" if settings.mode == "PHYSICAL" else "TISSUE_GRAY"
@@ -159,7 +159,7 @@ def _reference_point(obj: bpy.types.Object, matrix: Matrix) -> tuple[float, floa
     if settings.reference == "ORIGIN":
         origin = matrix.col[3]
         return origin[0], origin[1], origin[2]
-    # In double precision: mathutils rounds to single, which would show in the last digits of the distances.
+    # In double precision: mathutils rounds to single, which would cost the distances their last digits.
     box = obj.bound_box
     (ax, ay, az), (bx, by, bz) = box[0], box[6]
     x, y, z = (ax + bx) / 2.0, (ay + by) / 2.0, (az + bz) / 2.0

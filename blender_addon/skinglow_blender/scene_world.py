@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The world of an evaluated scene as `skinglow.Environment`. It lights skin of mode `physical` alone."""
+"""The world of an evaluated scene as `skinglow.Environment`. It lights skins in mode `physical` only."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,23 +13,23 @@ from .errors import SkinError, core
 from .image_pixels import colorspace_note
 from .world_image import environment_of_image
 from .world_mapping import IDENTITY
-from .world_nodes import Background, follow_world
+from .world_nodes import Background, read_world_nodes
 
 
 @dataclass(frozen=True)
 class World:
-    """The world as it shines at one look at a scene. Images are read when it is first asked what it gives."""
+    """The world of one scene reading. Its images are read when its light is first needed."""
 
     name: str
     backgrounds: tuple[Background, ...]
-    left_out: str  #: why it gives no light, or ""
-    unfollowed: str  #: what of its nodes could not be taken over, or ""
+    unlit_reason: str  #: why it emits nothing, or ""
+    unsupported: str  #: what in its nodes is not supported, or ""
 
     @cached_property
     def environment(self) -> Any:  # noqa: ANN401  skinglow.Environment
-        """Its radiance as nine coefficients; dark where it is left out or its images cannot be used."""
+        """Its radiance as nine spherical-harmonic coefficients; dark if it is unlit or its images cannot be used."""
         total = np.zeros((9, 3))
-        for background in self.backgrounds if not self.left_out else ():
+        for background in self.backgrounds if not self.unlit_reason else ():
             try:
                 total += _coefficients(background)
             except SkinError:
@@ -38,14 +38,14 @@ class World:
 
     @cached_property
     def irradiance(self) -> tuple[float, float, float]:
-        """What it brings to a whole object, W/m^2: the mean over all directions that a surface can face."""
+        """Irradiance of a whole object, W/m^2: the mean over all surface orientations."""
         return tuple(float(e) for e in self.environment.mean_irradiance)
 
     @cached_property
     def note(self) -> str:
-        """What could not be taken over, images included, or ""."""
-        if self.unfollowed or self.left_out:
-            return self.unfollowed
+        """What is not supported, images included, or ""."""
+        if self.unsupported or self.unlit_reason:
+            return self.unsupported
         for background in self.backgrounds:
             if background.image:
                 try:
@@ -59,26 +59,26 @@ class World:
 
 
 def read_world(depsgraph: bpy.types.Depsgraph) -> World | None:
-    """Reads the world that a depsgraph's view layer is lit by; None where the scene has none."""
+    """Reads the world that lights a depsgraph's view layer; None if the scene has none."""
     layer = depsgraph.view_layer_eval
     world = blender_version.world_override(layer) or depsgraph.scene_eval.world
     if world is None:
         return None
-    left_out = ""
+    unlit_reason = ""
     if not layer.use_sky:
-        left_out = "the view layer leaves it out (Filter, Environment)"
+        unlit_reason = "the view layer excludes it (Filter, Environment)"
     elif not _visible_to_diffuse(world, depsgraph.mode):
-        left_out = "its ray visibility leaves diffuse light out"
+        unlit_reason = "its ray visibility excludes diffuse rays"
     tree = blender_version.shader_tree(world)
     if tree is None:
-        return World(world.name, (Background(tuple(world.color), "", "", IDENTITY),), left_out, "")
-    followed = follow_world(tree)
-    return World(world.name, followed.backgrounds, left_out, followed.note)
+        return World(world.name, (Background(tuple(world.color), "", "", IDENTITY),), unlit_reason, "")
+    found = read_world_nodes(tree)
+    return World(world.name, found.backgrounds, unlit_reason, found.note)
 
 
 def _visible_to_diffuse(world: bpy.types.World, mode: str) -> bool:
-    # A property of the Cycles add-on, which may be off. Blender 3.4 does not bring it up to date in the viewport's
-    # evaluated copy.
+    # A property of the Cycles add-on, which may be disabled. Blender 3.4 does not update it in the viewport's evaluated
+    # copy.
     visibility = getattr(world.original if mode == "VIEWPORT" else world, "cycles_visibility", None)
     return visibility is None or visibility.diffuse
 

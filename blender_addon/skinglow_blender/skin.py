@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Making a skin, asking what it shows, and taking it away again."""
+"""Makes skins, queries what they show and removes them."""
 
 from collections.abc import Sequence
 from typing import Any, NamedTuple
@@ -20,32 +20,32 @@ from .skin_tables import OBJECT_WEIGHT, Table, WeightsChoice
 
 
 class SkinState(NamedTuple):
-    """What a skin is set to and shows."""
+    """The settings and the current state of a skin."""
 
     name: str  #: of the object
     mode: str  #: 'EXISTING', 'PAPER' or 'PHYSICAL'
-    weights: str  #: 'OBJECT' or 'SURFACE': what is shown, also where the setting is 'AUTO'
-    weights_bound: float | None  #: share of its largest channel by which the object's weight may be off on the surface
-    point: tuple[float, float, float]  #: where distances are measured, world, scene units
+    weights: str  #: 'OBJECT' or 'SURFACE': the one in use if the setting is 'AUTO'
+    weights_bound: float | None  #: error bound of the object's weight, relative to its largest channel
+    point: tuple[float, float, float]  #: reference point of distances, world, scene units
     size: int  #: entries of its lookup
     max_thickness_mm: float  #: thickness at the last entry
-    thickness_mm: tuple[float, float]  #: smallest and largest of its vertices
-    unit_mm: float  #: of one scene unit
-    row: int  #: of the lookup image, counted from below
-    rebuilt: tuple[Rebuilt, ...]  #: what making it computed
+    thickness_mm: tuple[float, float]  #: min and max over its vertices
+    unit_mm: float  #: millimeters per scene unit
+    row: int  #: of the lookup image, from the bottom
+    rebuilt: tuple[Rebuilt, ...]  #: the tables that were computed
 
 
 def make_skin(obj: bpy.types.Object, thickness: Sequence[float] | None = None, **settings: Any) -> SkinState:  # noqa: ANN401
-    """Makes a mesh object glow: thickness, lookup node behind its surface, live update.
+    """Makes a mesh object glow: measures thickness, adds the lookup node to its materials, keeps it up to date.
 
-    obj        a mesh object with faces, not in edit mode; its materials keep their surface
-    thickness  mm, one per vertex, for thicknesses of your own, which then stay; without it they are measured by rays
-               (only when the mesh, its scale or unit changed since the last time)
+    obj        a mesh object with faces, not in Edit Mode; its materials keep their surface
+    thickness  custom thicknesses, mm, one per vertex, which are then kept; without it they are measured by ray tracing
+               (only if the mesh, its scale or unit changed since the last time)
     settings   any property of `obj.skinglow` (skin_settings.py): mode="existing"|"paper"|"physical",
-               weights="object"|"surface"|"auto" (in mode physical: lamps weighed once or at each pixel), strength,
+               weights="object"|"surface"|"auto" (mode physical: lit per object or per pixel), strength,
                blood_weight, attenuation, reference="bounds"|"origin"|"point", reference_point (which implies
-               "point"), size, max_thickness_mm, unit_mm, rays, ... Called again, it changes only what is given.
-    Raises SkinError where the object cannot be a skin, ValueError naming a setting that is not allowed.
+               "point"), size, max_thickness_mm, unit_mm, rays, ... Another call changes only the given ones.
+    Raises SkinError if the object cannot be a skin, ValueError naming a setting that is not allowed.
     """
     thickness_attribute.check_mesh(obj)
     if "reference_point" in settings:
@@ -74,7 +74,7 @@ def make_skin(obj: bpy.types.Object, thickness: Sequence[float] | None = None, *
 
 
 def state_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SkinState:
-    """The state of a skin as a depsgraph sees it."""
+    """The state of a skin in a depsgraph."""
     settings = skin_settings_of(obj)
     evaluated = obj.evaluated_get(depsgraph)
     attribute = obj.data.attributes.get(thickness_attribute.THICKNESS_ATTRIBUTE)
@@ -99,23 +99,23 @@ def state_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SkinState
 
 
 def table_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Table | None:
-    """The table that a skin shows in a depsgraph of this mode; None before the first update."""
+    """The table that a skin shows in depsgraphs of this mode; None before the first update."""
     group = obj.original.skinglow.group
     atlas = STATE.atlases.get((group.name_full, depsgraph.mode)) if group is not None else None
     return atlas.tables.get(obj.original.name_full) if atlas is not None else None
 
 
 def choice_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> WeightsChoice:
-    """Whether a skin shows the object's weight or weights on the surface, and what that would cost or saves."""
+    """Whether a skin is lit per object or per pixel, and the error bound of the former."""
     table = table_of(obj, depsgraph)
     return table.choice if table is not None else OBJECT_WEIGHT
 
 
 def update(depsgraph: bpy.types.Depsgraph) -> list[Rebuilt]:
-    """Recomputes every skin's lookup whose lamps, world, place or settings changed; returns what was rebuilt and why.
+    """Recomputes each lookup whose lights, world, position or settings changed; returns what was rebuilt and why.
 
-    The handlers do the same by themselves wherever Blender reports a change. Raises SkinError with all that went
-    wrong, after the other skins are up to date; a skin with a fault keeps its last good lookup.
+    The handlers do the same whenever Blender reports a change. Raises SkinError with all faults after the other skins
+    are updated; a skin with a fault keeps its last good lookup.
     """
     world_image.forget_edited()
     rebuilt = update_scene(depsgraph)
@@ -127,10 +127,10 @@ def update(depsgraph: bpy.types.Depsgraph) -> list[Rebuilt]:
 def lut(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
     """The lookup as the object's material shows it, (size, 3) float32, linear Rec.709, thin skin first.
 
-    With surface weights, where each pixel has light of its own: the lookup at the object's one weight.
+    If the skin is lit per pixel, the lookup at the object's single weight.
 
-    It is read from the image that the node shows; where viewport and render differ, from the one of the depsgraph's
-    mode. Raises SkinError where the object is no skin.
+    It is read from the image in the node; if viewport and render differ, from that of the depsgraph's mode. Raises
+    SkinError if the object is not a skin.
     """
     settings = skin_settings_of(obj)
     group = settings.group
@@ -140,7 +140,7 @@ def lut(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
     if image not in pair and atlas is not None:
         image = pair[atlas.front]
     if image is None:
-        raise SkinError(f"'{obj.name}': the image of its lookup is gone; make the skin again")
+        raise SkinError(f"'{obj.name}': the image of its lookup was deleted: make the skin again")
     table = table_of(obj, depsgraph)
     if table is not None:
         size = len(table.colors)
@@ -152,7 +152,7 @@ def lut(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
 
 
 def remove_skin(obj: bpy.types.Object) -> None:
-    """Takes everything away that `make_skin` brought, where no other skin needs it."""
+    """Removes everything that `make_skin` added, unless another skin needs it."""
     settings = obj.skinglow
     group = settings.group
     settings.enabled = False
@@ -177,14 +177,14 @@ def remove_skin(obj: bpy.types.Object) -> None:
 
 
 def reset_settings(obj: bpy.types.Object) -> None:
-    """All that `make_skin` takes back to its defaults; the skin stays one, and its thickness as it was measured."""
+    """Resets all settings of `make_skin` to their defaults; the object stays a skin and keeps its thickness."""
     for name in SETTING_NAMES:
         obj.skinglow.property_unset(name)
     obj.update_tag(refresh={"OBJECT"})
 
 
 def skin_settings_of(obj: bpy.types.Object) -> bpy.types.PropertyGroup:
-    """The settings of a skin; raises SkinError where the object is none."""
+    """The settings of a skin; raises SkinError if the object is not one."""
     if obj.type != "MESH" or not obj.skinglow.enabled or obj.skinglow.group is None:
-        raise SkinError(f"'{obj.name}' is not a skin yet: make_skin makes it one")
+        raise SkinError(f"'{obj.name}' is not a skin: call make_skin first")
     return obj.original.skinglow

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The node group that turns thickness into light coming through: Surface in, Shader out, the light added between.
+"""The node group that adds the transmitted light, looked up by thickness, to a surface: Surface in, Shader out.
 
-The object's custom property gives, for each object on the material, its texels per mm, the width of a texel, the
-height of its row and its strength; an object without the property has strength 0 and does not glow.
+The object's custom property provides its texels per mm, the width of a texel, the v coordinate of its row and its
+strength; an object without the property has strength 0 and does not glow.
 
-The two texels about a thickness are read without filtering and mixed by nodes: EEVEE filters an image with mip maps, in
-which the rows of different skins run together, and by weights of eight bits.
+The two texels next to a thickness are read unfiltered and interpolated by nodes: EEVEE filters images with mip maps, in
+which the rows of different skins bleed into each other, and with 8-bit weights.
 """
 
 import bpy
@@ -18,16 +18,18 @@ from .scene_reading import ROW_PROPERTY
 
 GROUP_NAME = "Skinglow"
 THICKNESS_ATTRIBUTE = "skinglow_thickness"
-#: The groups inside a group for surface weights (surface_group.py).
+#: The inner groups of a group that lights per pixel (surface_group.py). Files hold them by these names.
 INNER_GROUPS = (".Skinglow texel", ".Skinglow lamp", ".Skinglow lamp with profile")
 
 
 def new_group() -> bpy.types.NodeTree:
-    """Builds the group with its sockets and its images, for plain rows."""
+    """Creates a group with its sockets and images, for plain rows."""
     group = bpy.data.node_groups.new(GROUP_NAME, "ShaderNodeTree")
-    blender_version.new_group_socket(group, "Surface", "NodeSocketShader", "INPUT", "The skin's surface, kept as it is")
     blender_version.new_group_socket(
-        group, "Shader", "NodeSocketShader", "OUTPUT", "The surface and the light coming through the skin"
+        group, "Surface", "NodeSocketShader", "INPUT", "The surface of the skin, unchanged"
+    )
+    blender_version.new_group_socket(
+        group, "Shader", "NodeSocketShader", "OUTPUT", "The surface plus the light transmitted through the skin"
     )
     group[GROUP_PROPERTY] = 1
     build_plain(group)
@@ -36,7 +38,7 @@ def new_group() -> bpy.types.NodeTree:
 
 
 class RowSockets:
-    """What every skin group reads first: thickness, and what the object's property says."""
+    """The common inputs of all skin groups: thickness and the object's property."""
 
     def __init__(self, build: NodeBuilder) -> None:
         thickness = build.node("ShaderNodeAttribute", "Thickness, mm")
@@ -50,27 +52,27 @@ class RowSockets:
 
 
 def build_plain(group: bpy.types.NodeTree) -> None:
-    """Makes a skin group's nodes anew for plain rows, colors by thickness; the image it showed stays in it."""
+    """Rebuilds a skin group's nodes for plain rows, colors by thickness; its image is kept."""
     image = shown_image(group)
     clear(group)
     group.pop(LAYOUT_PROPERTY, None)
     build = NodeBuilder(group, -700.0, 200.0)
     row = RowSockets(build)
     below = build.math("FLOOR", row.texel)
-    share = build.math("FRACT", row.texel)
+    fraction = build.math("FRACT", row.texel)
     colors = []
-    for name, to_center in zip(NODE_NAMES, (0.5, 1.5), strict=True):
-        along = build.math("MULTIPLY", build.math("ADD", below, to_center), row.texel_width)
-        lookup = new_lookup(build, build.combine(along, row.row), name)
+    for name, offset in zip(NODE_NAMES, (0.5, 1.5), strict=True):
+        u = build.math("MULTIPLY", build.math("ADD", below, offset), row.texel_width)
+        lookup = new_lookup(build, build.combine(u, row.row), name)
         colors.append(lookup.outputs["Color"])
     step = build.vector("SUBTRACT", colors[1], colors[0])
-    finish(build, build.vector("MULTIPLY_ADD", step, share, colors[0]), row.strength)
+    finish(build, build.vector("MULTIPLY_ADD", step, fraction, colors[0]), row.strength)
     if image is not None:
         show_image(group, image)
 
 
 def clear(group: bpy.types.NodeTree) -> None:
-    """Deletes a skin group's nodes, and the groups inside that nothing else uses."""
+    """Deletes a skin group's nodes, and the inner groups that nothing else uses."""
     inner = {n.node_tree for n in group.nodes if n.bl_idname == "ShaderNodeGroup" and n.node_tree is not None}
     group.nodes.clear()
     for tree in inner:
@@ -78,20 +80,20 @@ def clear(group: bpy.types.NodeTree) -> None:
             bpy.data.node_groups.remove(tree)
 
 
-def new_lookup(build: NodeBuilder, place: Socket, name: str) -> bpy.types.Node:
+def new_lookup(build: NodeBuilder, coordinate: Socket, name: str) -> bpy.types.Node:
     """An image node that reads one texel of a skin's row."""
-    lookup = build.node("ShaderNodeTexImage", "Light coming through")
+    lookup = build.node("ShaderNodeTexImage", "Transmitted light")
     lookup.name, lookup.extension, lookup.interpolation = name, "EXTEND", "Closest"
-    build.give(lookup.inputs["Vector"], place)
+    build.set(lookup.inputs["Vector"], coordinate)
     return lookup
 
 
 def finish(build: NodeBuilder, color: Socket, strength: Socket) -> None:
     """Adds the light to the surface."""
     group = build.tree
-    emission = build.node("ShaderNodeEmission", "Light coming through")
-    build.give(emission.inputs["Color"], color)
-    build.give(emission.inputs["Strength"], strength)
+    emission = build.node("ShaderNodeEmission", "Transmitted light")
+    build.set(emission.inputs["Color"], color)
+    build.set(emission.inputs["Strength"], strength)
     surface, add, shader = (build.node(kind) for kind in ("NodeGroupInput", "ShaderNodeAddShader", "NodeGroupOutput"))
     group.links.new(surface.outputs["Surface"], add.inputs[0])
     group.links.new(emission.outputs[0], add.inputs[1])

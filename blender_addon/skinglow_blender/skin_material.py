@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The place of the skin's node group in an object's materials."""
+"""Inserts the skin's node group into an object's materials and removes it."""
 
 import bpy
 import numpy as np
@@ -9,7 +9,7 @@ from .errors import SkinError
 from .lut_image import is_skin_group, skin_groups
 from .skin_group import new_group
 
-#: On the node in a material: how Cycles sampled the material's emission before.
+#: Custom property of the node in a material: the material's original emission sampling.
 SAMPLING_PROPERTY = "skinglow_sampling"
 #: A light skin, linear Rec.709, for objects without a material: the light skin patch of the ColorChecker chart
 #: (sRGB 194, 150, 130; X-Rite's published values).
@@ -18,9 +18,9 @@ PLAIN_SKIN_ROUGHNESS = 0.45
 
 
 def add_to_materials(obj: bpy.types.Object, group: bpy.types.NodeTree | None) -> bpy.types.NodeTree:
-    """Puts the group behind the surface of each of an object's materials; returns the group that is there.
+    """Inserts the group after the surface of each of an object's materials; returns the group in use.
 
-    A material that has a skin group keeps it, so that objects which share a material share the group.
+    A material that already has a skin group keeps it, so that objects which share a material share the group.
     """
     materials = [slot.material for slot in obj.material_slots if slot.material is not None]
     if not materials:
@@ -48,7 +48,7 @@ def add_to_materials(obj: bpy.types.Object, group: bpy.types.NodeTree | None) ->
 
 
 def skin_node(material: bpy.types.Material) -> bpy.types.Node | None:
-    """The material's node that is a skin group."""
+    """The material's skin group node, or None."""
     tree = blender_version.shader_tree(material)
     if tree is None:
         return None
@@ -56,7 +56,7 @@ def skin_node(material: bpy.types.Material) -> bpy.types.Node | None:
 
 
 def remove_from_material(material: bpy.types.Material) -> None:
-    """Takes the group out again and joins what it stood between."""
+    """Removes the group and reconnects the surface to the output."""
     tree = blender_version.shader_tree(material)
     node = skin_node(material)
     while node is not None:
@@ -72,8 +72,8 @@ def remove_from_material(material: bpy.types.Material) -> None:
 
 
 def _insert(material: bpy.types.Material, group: bpy.types.NodeTree) -> None:
-    # Cycles would take each face of the skin for a lamp and spend most of its samples on them: three times the
-    # time, for light so faint that it is found without.
+    # Otherwise Cycles samples each face of the skin as a light and spends most of its samples on them: three times the
+    # render time, for light too faint to need direct sampling.
     sampling = blender_version.emission_sampling(material)
     blender_version.set_emission_sampling(material, blender_version.NO_EMISSION_SAMPLING)
     plain = blender_version.shader_tree(material) is None
@@ -98,7 +98,7 @@ def _insert(material: bpy.types.Material, group: bpy.types.NodeTree) -> None:
 
 def _plain_skin(obj: bpy.types.Object) -> bpy.types.Material:
     if obj.data.library is not None:
-        raise SkinError(f"'{obj.name}' has no material, and its mesh belongs to a library: give it one there")
+        raise SkinError(f"'{obj.name}' has no material, and its mesh is linked from a library: add a material there")
     material = bpy.data.materials.new("Skin")
     tree = blender_version.ensure_shader_tree(material)
     color = working_space.from_rec709(np.array(PLAIN_SKIN_COLOR))

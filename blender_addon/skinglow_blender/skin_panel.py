@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of a skin as the panel's parts show them."""
+"""Draws the settings of a skin in the subpanels."""
 
 import bpy
 
@@ -8,7 +8,7 @@ from .thickness_attribute import unit_mm
 
 
 def draw_look(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
-    """Mode, strength and what the mode is made of."""
+    """Mode, strength and the settings of the mode."""
     layout.row().prop(settings, "mode", expand=True)
     layout.use_property_split, layout.use_property_decorate = True, False
     layout.prop(settings, "strength")
@@ -25,7 +25,7 @@ def draw_look(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> 
 
 
 def _draw_weights(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
-    """Numbers rather than a swatch: the blood weight's are above 1, where swatches show white."""
+    """Numbers rather than a color swatch: the blood weight exceeds 1, which a swatch shows as white."""
     for name, parts in (("blood_weight", "RGB"), ("attenuation", ("Constant", "Linear", "Quadratic"))):
         column = layout.column(align=True)
         column.label(text=settings.bl_rna.properties[name].name)
@@ -34,10 +34,10 @@ def _draw_weights(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup)
 
 
 def draw_lookup(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
-    """The table's size, and where distances are measured."""
+    """The size of the table and the reference point of distances."""
     layout.use_property_split, layout.use_property_decorate = True, False
     column = layout.column(align=True)
-    column.prop(settings, "max_thickness_mm", text="Thickest, mm")
+    column.prop(settings, "max_thickness_mm", text="Max Thickness (mm)")
     column.prop(settings, "size")
     if settings.mode != "EXISTING":
         layout.prop(settings, "reference")
@@ -46,10 +46,10 @@ def draw_lookup(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -
 
 
 def draw_thickness(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context) -> None:
-    """How thickness is measured."""
+    """Settings for measuring thickness."""
     layout.use_property_split, layout.use_property_decorate = True, False
     column = layout.column(align=True)
-    column.prop(obj.skinglow, "unit_mm", text="Unit, mm")
+    column.prop(obj.skinglow, "unit_mm", text="Unit (mm)")
     column.prop(obj.skinglow, "rays")
     column.prop(obj.skinglow, "min_openness", slider=True)
     across = max(obj.dimensions) * unit_mm(obj, context.scene)

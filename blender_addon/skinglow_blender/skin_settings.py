@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the user sets on a skin: a property group on every object, `obj.skinglow`."""
+"""The settings of a skin: a property group on every object, `obj.skinglow`.
+
+Files store settings by property name: names must not change, labels may.
+"""
 
 from functools import lru_cache
 from typing import Any
@@ -18,49 +21,54 @@ from bpy.props import (
 from .errors import core
 
 MODES = (
-    ("EXISTING", "Existing", "A fixed reddish lookup: the skin glows in the same color, whatever the lights do"),
-    ("PAPER", "Paper", "Base lookup times blood weight plus the attenuated light colors (Kim et al., Eq. 1 to 3)"),
-    ("PHYSICAL", "Physical", "Layered skin, solved, lit by what each light brings to its far side in W/m^2"),
+    ("EXISTING", "Fixed", "Fixed reddish lookup that ignores the lights (mode 'existing' in Python)"),
+    (
+        "PAPER",
+        "Tinted",
+        "Base lookup times blood weight plus attenuated light colors (Kim et al., Eq. 1 to 3), independent of the "
+        "power of the lights (mode 'paper' in Python)",
+    ),
+    ("PHYSICAL", "Physical", "Layered skin, solved by radiative transfer and lit by the irradiance on its far side"),
 )
 WEIGHTS = (
     (
         "OBJECT",
-        "Object",
-        "One weight for the whole object: each lamp as if the far side faced it, at the reference point",
+        "Per Object",
+        "One weight for the whole object: each light as if the far side faced it, at the reference point",
     ),
     (
         "SURFACE",
-        "Surface",
-        "The light is worked out at each pixel, on the far side, with its angle: for lamps that are near",
+        "Per Pixel",
+        "Compute the light on the far side at each pixel, with its angle: for lights that are close",
     ),
-    ("AUTO", "Automatic", "Surface, where one weight for the object may be more than 5 % off anywhere on it"),
+    ("AUTO", "Automatic", "Per Pixel if a single weight may be more than 5% off anywhere on the object"),
 )
 BASES = (
     ("BUILTIN", "Built-in", "Brightness of the six-Gaussian skin profile (d'Eon and Luebke 2007)"),
-    ("IMAGE", "Image", "Brightness of an image's columns, thin skin at its left, thick at its right"),
-    ("SKIN", "Skin", "Brightness of the skin that the sliders describe"),
+    ("IMAGE", "Image", "Brightness of an image's columns, thin skin on the left, thick skin on the right"),
+    ("SKIN", "Skin", "Brightness of the skin described by the sliders"),
 )
 REFERENCES = (
-    ("BOUNDS", "Bounds", "Center of the evaluated mesh's bounding box"),
-    ("ORIGIN", "Origin", "The object's origin"),
-    ("POINT", "Point", "A point of the world that you give"),
+    ("BOUNDS", "Bounds", "Center of the bounding box of the evaluated mesh"),
+    ("ORIGIN", "Origin", "Origin of the object"),
+    ("POINT", "Point", "Custom point in world space"),
 )
 
 
 def _changed(settings: "SkinSettings", _context: bpy.types.Context) -> None:
-    """Add-on properties report nothing to Blender by themselves; without the tag the handlers would not run."""
+    """Tags the object: Blender does not report changes of add-on properties to the handlers."""
     if settings.enabled:
         settings.id_data.update_tag(refresh={"OBJECT"})
 
 
 #: The core's named skins (skinglow.TISSUE_PRESETS).
 PRESETS = (
-    ("CUSTOM", "Custom", "As the sliders stand"),
-    ("VERY_LIGHT", "Very light", "Very little melanin"),
-    ("LIGHT", "Light", "Light skin, as the paper's head"),
+    ("CUSTOM", "Custom", "Current values of the sliders"),
+    ("VERY_LIGHT", "Very Light", "Very little melanin"),
+    ("LIGHT", "Light", "Light skin, like the head in the paper"),
     ("MEDIUM", "Medium", "Medium pigmentation"),
     ("DARK", "Dark", "Dark skin"),
-    ("VERY_DARK", "Very dark", "Very much melanin"),
+    ("VERY_DARK", "Very Dark", "Very much melanin"),
     ("PALE", "Pale", "Light skin with little blood"),
     ("FLUSHED", "Flushed", "Light skin with much blood, rich in oxygen"),
     ("CYANOTIC", "Cyanotic", "Light skin with much blood, poor in oxygen"),
@@ -102,28 +110,28 @@ def _slider_moved(settings: "SkinSettings", context: bpy.types.Context) -> None:
 
 
 class SkinSettings(bpy.types.PropertyGroup):
-    """One skin. `make_skin` takes each property that is not hidden by its name."""
+    """The settings of one skin. `make_skin` accepts every property that is not hidden as a keyword."""
 
-    enabled: BoolProperty(name="Skin", description="This object is a skin that glows", options={"HIDDEN"})
+    enabled: BoolProperty(name="Skin", description="Let light shine through this object", options={"HIDDEN"})
     live: BoolProperty(
         name="Live",
         default=True,
         update=_changed,
-        description="Follow the lights as they change; off: only 'Update now' does",
+        description="Update when the lights change; if disabled, only Update Now does",
     )
     mode: EnumProperty(
         name="Mode",
         items=MODES,
         default="PAPER",
         update=_changed,
-        description="How the light coming through is computed",
+        description="How the transmitted light is computed",
     )
     weights: EnumProperty(
-        name="Weights",
+        name="Lighting",
         items=WEIGHTS,
         default="OBJECT",
         update=_changed,
-        description="Whether the lamps are weighed once for the object or at each pixel (mode physical)",
+        description="Whether the lights are evaluated once per object or at each pixel (Physical mode)",
     )
     strength: FloatProperty(
         name="Strength",
@@ -131,23 +139,23 @@ class SkinSettings(bpy.types.PropertyGroup):
         min=0.0,
         soft_max=10.0,
         update=_changed,
-        description="Factor on the light coming through; 1 shows the lookup as it is",
+        description="Factor on the transmitted light; 1 shows the lookup as computed",
     )
     base: EnumProperty(
         name="Base",
         items=BASES,
         default="BUILTIN",
         update=_changed,
-        description="The base lookup that holds brightness only, by thickness",
+        description="Base lookup: brightness by thickness",
     )
     base_image: PointerProperty(
         name="Image",
         type=bpy.types.Image,
         update=_changed,
-        description="Base lookup; its middle row is read, color is reduced to brightness",
+        description="Base lookup; the rows of the image are averaged and color is reduced to brightness",
     )
     blood_weight: FloatVectorProperty(
-        name="Blood",
+        name="Blood Weight",
         subtype="COLOR",
         size=3,
         default=(1.8, 0.5, 0.4),
@@ -155,7 +163,7 @@ class SkinSettings(bpy.types.PropertyGroup):
         soft_max=4.0,
         max=1e6,
         update=_changed,
-        description="B of Eq. 1, added to the light weight; the paper's is 1.8, 0.5, 0.4",
+        description="B of Eq. 1, added to the light weight; 1.8, 0.5, 0.4 in the paper",
     )
     attenuation: FloatVectorProperty(
         name="Attenuation",
@@ -165,10 +173,10 @@ class SkinSettings(bpy.types.PropertyGroup):
         soft_max=10.0,
         precision=3,
         update=_changed,
-        description="Constant, linear and quadratic coefficient of Eq. 2, for distances in scene units",
+        description="Constant, linear and quadratic coefficients of Eq. 2, for distances in scene units",
     )
     preset: EnumProperty(
-        name="Skin", items=PRESETS, default="LIGHT", update=_preset_chosen, description="A skin to start from"
+        name="Preset", items=PRESETS, default="LIGHT", update=_preset_chosen, description="Predefined skin"
     )
     melanin_fraction: FloatProperty(
         name="Melanin",
@@ -177,24 +185,24 @@ class SkinSettings(bpy.types.PropertyGroup):
         max=0.5,
         precision=3,
         update=_slider_moved,
-        description="Melanosomes, volume fraction of the epidermis",
+        description="Volume fraction of melanosomes in the epidermis",
     )
     blood_fraction: FloatProperty(
-        name="Blood volume",
+        name="Blood Volume",
         default=0.01,
         min=0.0,
         max=0.1,
         precision=4,
         update=_slider_moved,
-        description="Whole blood of 150 g/L hemoglobin, volume fraction of the dermis",
+        description="Volume fraction of whole blood (150 g/L hemoglobin) in the dermis",
     )
     oxygen_saturation: FloatProperty(
-        name="Oxygen",
+        name="Oxygenation",
         default=0.75,
         min=0.0,
         max=1.0,
         update=_slider_moved,
-        description="Oxygenated part of the hemoglobin",
+        description="Fraction of the hemoglobin that is oxygenated",
     )
     epidermal_thickness_mm: FloatProperty(
         name="Epidermis",
@@ -203,7 +211,7 @@ class SkinSettings(bpy.types.PropertyGroup):
         max=0.3,
         precision=3,
         update=_slider_moved,
-        description="Thickness of each of the two epidermes, mm",
+        description="Thickness of each of the two epidermal layers, in mm",
     )
     scattering_scale: FloatProperty(
         name="Scattering",
@@ -211,15 +219,15 @@ class SkinSettings(bpy.types.PropertyGroup):
         min=0.1,
         max=3.0,
         update=_slider_moved,
-        description="Multiplies the scattering of every layer",
+        description="Factor on the scattering coefficient of every layer",
     )
     refractive_index: FloatProperty(
-        name="Index",
+        name="IOR",
         default=1.4,
         min=1.0,
         max=1.6,
         update=_slider_moved,
-        description="Refractive index of every layer; outside is air",
+        description="Index of refraction of every layer, surrounded by air",
     )
     cartilage_fraction: FloatProperty(
         name="Cartilage",
@@ -227,35 +235,35 @@ class SkinSettings(bpy.types.PropertyGroup):
         min=0.0,
         max=1.0,
         update=_slider_moved,
-        description="Cartilage, volume fraction of the inner layer",
+        description="Volume fraction of cartilage in the inner layer",
     )
     reference: EnumProperty(
-        name="Measured at",
+        name="Light Distance From",
         items=REFERENCES,
         default="BOUNDS",
         update=_changed,
-        description="Where distances to the lights are measured",
+        description="Point of the skin from which distances to the lights are measured",
     )
     reference_point: FloatVectorProperty(
-        name="Point", subtype="XYZ", size=3, update=_changed, description="World position, scene units"
+        name="Point", subtype="XYZ", size=3, update=_changed, description="Location in world space"
     )
     size: IntProperty(
-        name="Texels",
+        name="Table Size",
         default=256,
         min=1,
         soft_max=1024,
         max=65536,
         update=_changed,
-        description="Entries of the lookup",
+        description="Number of entries of the lookup",
     )
     max_thickness_mm: FloatProperty(
-        name="Thickest",
+        name="Max Thickness",
         default=12.0,
         min=1e-3,
         soft_max=50.0,
         max=1e6,
         update=_changed,
-        description="Thickness at the lookup's last entry, mm; thicker skin shows that entry",
+        description="Thickness at the last entry of the lookup, in mm; thicker skin shows that entry",
     )
     unit_mm: FloatProperty(
         name="Unit",
@@ -265,7 +273,7 @@ class SkinSettings(bpy.types.PropertyGroup):
         max=1e9,
         precision=3,
         update=_changed,
-        description="Millimeters in one Blender unit; 0: as the scene's unit scale says (1000 by default)",
+        description="Length of one Blender unit in mm; 0 uses the unit scale of the scene (1000 by default)",
     )
     rays: IntProperty(
         name="Rays",
@@ -273,24 +281,24 @@ class SkinSettings(bpy.types.PropertyGroup):
         min=1,
         soft_max=512,
         max=65536,
-        description="Rays per vertex when the thickness is measured",
+        description="Number of rays per vertex for measuring the thickness",
     )
     min_openness: FloatProperty(
-        name="Openness",
+        name="Min Sky Visibility",
         default=0.1,
         min=0.0,
         max=1.0,
-        description="Far sides that see less of the sky than this are dark (mouth, eye sockets) and let no light in; "
-        "0: every far side counts",
+        description="Minimum fraction of the sky that a far side must see to let light in, so that the mouth and eye "
+        "sockets stay dark; 0 accepts all far sides",
     )
     group: PointerProperty(type=bpy.types.ShaderNodeTree, options={"HIDDEN"})
     row: IntProperty(default=-1, options={"HIDDEN"})
 
 
 class LutImages(bpy.types.PropertyGroup):
-    """The images that a skin node group shows in turn, on each of them (lut_image.py says why there are four).
+    """The images of a skin node group, stored on each of them (lut_image.py explains why there are four).
 
-    Not on the node group: Blender counts users wrongly where a node tree's own properties point to data.
+    Not stored on the node group: Blender miscounts the users of data that a node tree's properties point to.
     """
 
     viewport_a: PointerProperty(type=bpy.types.Image)
@@ -299,13 +307,13 @@ class LutImages(bpy.types.PropertyGroup):
     render_b: PointerProperty(type=bpy.types.Image)
 
 
-#: The names that `make_skin` takes.
+#: The settings that `make_skin` accepts.
 SETTING_NAMES = tuple(name for name in SkinSettings.__annotations__ if name not in ("enabled", "group", "row"))
 
 
 def apply_settings(settings: SkinSettings, values: dict[str, Any]) -> None:
-    """Sets properties by name; raises ValueError naming the setting and what is allowed."""
-    # A preset first: what else is given changes it.
+    """Sets properties by name; raises ValueError naming the setting and the allowed values."""
+    # The preset first: other settings modify it.
     for name, value in sorted(values.items(), key=lambda item: item[0] != "preset"):
         if name not in SETTING_NAMES:
             raise ValueError(f"make_skin has no setting '{name}'; it has: {', '.join(SETTING_NAMES)}")
@@ -319,9 +327,9 @@ def apply_settings(settings: SkinSettings, values: dict[str, Any]) -> None:
 
 @lru_cache(maxsize=4096)
 def as_typed(value: float) -> float:
-    """The double a person meant by a single-precision property: 1.8 where Blender stores 1.7999999523.
+    """The double that the user typed into a single-precision property: 1.8 where Blender stores 1.7999999523.
 
-    That is the shortest decimal number that rounds to the stored one, so that Eq. 1 is followed to the digit.
+    That is the shortest decimal number that rounds to the stored value; so Eq. 1 is exact to the last digit.
     """
     return float(str(np.float32(value)))
 
@@ -330,12 +338,12 @@ def register() -> None:
     """Adds the properties to Blender's types."""
     bpy.utils.register_class(SkinSettings)
     bpy.utils.register_class(LutImages)
-    bpy.types.Object.skinglow = PointerProperty(type=SkinSettings, name="Skin glow")
-    bpy.types.Image.skinglow = PointerProperty(type=LutImages, name="Skin glow images")
+    bpy.types.Object.skinglow = PointerProperty(type=SkinSettings, name="Skin Glow")
+    bpy.types.Image.skinglow = PointerProperty(type=LutImages, name="Skin Glow Images")
 
 
 def unregister() -> None:
-    """Takes the properties away; what is stored in files stays in them."""
+    """Removes the properties; values stored in files remain there."""
     del bpy.types.Image.skinglow
     del bpy.types.Object.skinglow
     bpy.utils.unregister_class(LutImages)

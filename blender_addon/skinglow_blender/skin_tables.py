@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From settings, lamps and world to the table that a skin shows. All computing is the core's."""
+"""Computes the table that a skin shows from its settings, lights and world, by calls to the core."""
 
 import math
 from functools import lru_cache
@@ -10,43 +10,41 @@ import numpy as np
 from .base_image import base_of_image, brightness
 from .errors import SkinError, core
 from .lut_layout import MAX_TERMS, Layout, layout_of
-from .scene_lights import Lamp, make_light
+from .scene_lights import SceneLight, make_light
 from .scene_reading import Skin
 from .scene_world import World
 from .skin_settings import TISSUE_SLIDERS
 
-#: With weights 'AUTO' the object's one weight will do where it is off by no more than this share of itself.
+#: With weights 'AUTO', the largest relative error at which the object's single weight is used.
 AUTO_TOLERANCE = 0.05
-
-
-#: The largest number of an image's pixels.
+#: The largest pixel value of a float image.
 BRIGHTEST = float(np.finfo(np.float32).max)
 
 
 class WeightsChoice(NamedTuple):
-    """Which weights a skin shows."""
+    """Whether a skin is lit per object or per pixel."""
 
     weights: str  #: 'OBJECT' or 'SURFACE'
-    bound: float | None  #: how far the object's weight may be off on the surface, a share of it; None: not asked for
+    bound: float | None  #: relative error bound of the object's weight on the surface; None: not computed
 
 
 OBJECT_WEIGHT = WeightsChoice("OBJECT", None)
 
 
 class Table(NamedTuple):
-    """A skin's lookup: one linear Rec.709 color per entry, and where a thickness finds its entry."""
+    """A skin's lookup: one linear Rec.709 color per entry, and the mapping from thickness to entry."""
 
     colors: np.ndarray  #: (size, 3) float64, at the object's weight
     texel_mapping: tuple[float, float]  #: as skinglow.BaseLut.texel_mapping
     weight: tuple[float, float, float] | None  #: what the base was multiplied by; None in mode `existing`
     columns: np.ndarray  #: (size, 3, 3): M(d)
     choice: WeightsChoice = OBJECT_WEIGHT
-    lighting: Any = None  #: a skinglow.SurfaceLighting, where the light is worked out at each pixel
-    far_lamps: frozenset[str] = frozenset()  #: names of the lamps that it has no term for
+    lighting: Any = None  #: a skinglow.SurfaceLighting if lit per pixel
+    far_lights: frozenset[str] = frozenset()  #: names of the lights without a term in it
 
 
 class Signature(NamedTuple):
-    """All that a skin's table depends on: it is computed again only when this changes."""
+    """Everything a skin's table depends on: it is recomputed only when this changes."""
 
     mode: str
     base: tuple
@@ -59,109 +57,111 @@ class Signature(NamedTuple):
     lights: tuple = ()
 
 
-def signature_of(skin: Skin, lamps: list[Lamp], world: World | None) -> Signature:
-    """What decides a skin's table in its mode, and nothing else."""
+def signature_of(skin: Skin, lights: list[SceneLight], world: World | None) -> Signature:
+    """The inputs that a skin's table depends on in its mode, and no others."""
     if skin.mode == "EXISTING":
         return Signature(skin.mode, skin.base)
-    lights = _reaching.of(skin, lamps).signatures
+    signatures = _prepared.of(skin, lights).signatures
     if skin.mode == "PAPER":
-        return Signature(skin.mode, skin.base, skin.blood_weight, skin.attenuation, skin.point, lights=lights)
-    light = world_irradiance(world)
+        return Signature(skin.mode, skin.base, skin.blood_weight, skin.attenuation, skin.point, lights=signatures)
+    world_light = world_irradiance(world)
     if skin.surface is not None and world is not None:
-        light = tuple(world.environment.coefficients.ravel())
+        world_light = tuple(world.environment.coefficients.ravel())
     return Signature(
         skin.mode,
         skin.base,
         point=skin.point,
         weights=skin.weights,
         surface=skin.surface,
-        world=light,
-        lights=lights,
+        world=world_light,
+        lights=signatures,
     )
 
 
-class Lit(NamedTuple):
-    """The lamps that reach a skin, as far as it sees them."""
+class SkinLights(NamedTuple):
+    """The lights that illuminate a skin, each reduced to its visible fraction."""
 
-    lamps: list[Lamp]
+    lights: list[SceneLight]
     signatures: tuple[tuple, ...]
 
     @classmethod
-    def by(cls, lamps: list[Lamp]) -> "Lit":
-        """By all of these."""
-        return cls(lamps, tuple(lamp.signature for lamp in lamps))
+    def from_lights(cls, lights: list[SceneLight]) -> "SkinLights":
+        """All of these lights."""
+        return cls(lights, tuple(light.signature for light in lights))
 
 
-class _Reaching:
-    """Remembers one reading's lamps, and what was made of them: most skins of a scene are lit by the same ones."""
+class _PreparedLights:
+    """Caches the lights of one scene reading and the core's lights made from them: most skins share the same ones."""
 
     def __init__(self) -> None:
-        self.lamps: list[Lamp] | None = None
-        self.everyone: Lit | None = None  #: of every skin; None where it depends on the skin
-        self.made_of: tuple | None = None
-        self.made: list[Any] = []
+        self.reading: list[SceneLight] | None = None
+        self.shared: SkinLights | None = None  #: the same for every skin; None where it depends on the skin
+        self.core_signatures: tuple | None = None  #: what core_lights were made from
+        self.core_lights: list[Any] = []
 
-    def of(self, skin: Skin, lamps: list[Lamp]) -> Lit:
-        if lamps is not self.lamps:
-            self.lamps, shining = lamps, [lamp for lamp in lamps if not lamp.left_out]
-            choosy = any(lamp.receivers is not None or lamp.excluded or lamp.visible for lamp in shining)
-            self.everyone = None if choosy else Lit.by(shining)
-        if self.everyone is not None:
-            return self.everyone
-        return Lit.by([lamp.seen_by(skin.key) for lamp in lamps if not lamp.left_out and lamp.lights(skin.name)])
+    def of(self, skin: Skin, lights: list[SceneLight]) -> SkinLights:
+        if lights is not self.reading:
+            self.reading, lit = lights, [light for light in lights if not light.unlit_reason]
+            per_skin = any(light.receivers is not None or light.excluded or light.visible for light in lit)
+            self.shared = None if per_skin else SkinLights.from_lights(lit)
+        if self.shared is not None:
+            return self.shared
+        return SkinLights.from_lights(
+            [light.seen_by(skin.key) for light in lights if not light.unlit_reason and light.lights(skin.name)]
+        )
 
-    def lights(self, skin: Skin, lamps: list[Lamp]) -> list[Any]:
-        found = self.of(skin, lamps)
-        # Mostly the same tuples, so that comparing them is a matter of addresses.
-        if found.signatures != self.made_of:
-            self.made_of, self.made = None, [make_light(lamp) for lamp in found.lamps]
-            self.made_of = found.signatures
-        return self.made
-
-
-_reaching = _Reaching()
-
-
-def lamps_of(skin: Skin, lamps: list[Lamp]) -> list[Lamp]:
-    """The lamps that reach this skin, as far as it sees them."""
-    return _reaching.of(skin, lamps).lamps
+    def core_lights_of(self, skin: Skin, lights: list[SceneLight]) -> list[Any]:
+        found = self.of(skin, lights)
+        # Mostly the very same tuples, which compare by identity first.
+        if found.signatures != self.core_signatures:
+            self.core_signatures, self.core_lights = None, [make_light(light) for light in found.lights]
+            self.core_signatures = found.signatures
+        return self.core_lights
 
 
-def lights_of(skin: Skin, lamps: list[Lamp]) -> list[Any]:
-    """The core's lamps that reach this skin; raises ValueError, naming lamp and field, where the core refuses one."""
-    return _reaching.lights(skin, lamps)
+_prepared = _PreparedLights()
+
+
+def lights_of(skin: Skin, lights: list[SceneLight]) -> list[SceneLight]:
+    """The lights that illuminate this skin, each reduced to its visible fraction."""
+    return _prepared.of(skin, lights).lights
+
+
+def core_lights_of(skin: Skin, lights: list[SceneLight]) -> list[Any]:
+    """The same as the core's lights; raises ValueError, naming light and field, if the core rejects one."""
+    return _prepared.core_lights_of(skin, lights)
 
 
 def world_irradiance(world: World | None) -> tuple[float, float, float]:
-    """What the world brings to a skin of mode physical, W/m^2; zeros without one."""
+    """Irradiance of a skin in mode physical from the world, W/m^2; zeros without a world."""
     return world.irradiance if world is not None else (0.0, 0.0, 0.0)
 
 
-def compute_table(skin: Skin, lamps: list[Lamp], world: World | None, room: Layout | None = None) -> Table:
-    """Computes a skin's lookup. Raises SkinError or ValueError, in words, where it cannot.
+def compute_table(skin: Skin, lights: list[SceneLight], world: World | None, capacity: Layout | None = None) -> Table:
+    """Computes a skin's lookup. Raises SkinError or ValueError with the reason if it cannot.
 
-    room  what its light on the surface has to fit into; None: as much as it needs
+    capacity  the layout that its per-pixel lighting has to fit into; None: unlimited
     """
     sg = core()
     base = base_lut(skin.base)
     if skin.mode == "EXISTING":
         colors = sg.six_gaussian_lookup(base.size, base.max_thickness_mm)
         return Table(colors, base.texel_mapping, None, colors[:, :, None] * np.eye(3))
-    lights = lights_of(skin, lamps)
+    core_lights = core_lights_of(skin, lights)
     choice, lighting, far = OBJECT_WEIGHT, None, frozenset()
     if skin.mode == "PAPER":
-        weight = np.add(skin.blood_weight, sg.light_weight(lights, skin.point, skin.attenuation))
+        weight = np.add(skin.blood_weight, sg.light_weight(core_lights, skin.point, skin.attenuation))
     else:
-        irradiance = np.add(sg.irradiance(lights, skin.point), world_irradiance(world))
-        choice = _choose_weights(skin, lights, world, irradiance)
+        irradiance = np.add(sg.irradiance(core_lights, skin.point), world_irradiance(world))
+        choice = _choose_weights(skin, core_lights, world, irradiance)
         if choice.weights == "SURFACE":
-            lighting = _lighting(skin, lights, world, room)
-            far = frozenset(lights[i].name for i in lighting.far_lights)
-        # Light that leaves diffusely: the radiance is the flux per area over pi.
+            lighting = _lighting(skin, core_lights, world, capacity)
+            far = frozenset(core_lights[i].name for i in lighting.far_lights)
+        # Light leaves the skin diffusely: radiance is radiant exitance over pi.
         weight = irradiance / math.pi
     colors = sg.recolor(base, weight)
     if max(colors.max(), -colors.min()) > BRIGHTEST:
-        raise SkinError(f"{skin.name}: the lookup is brighter than an image can hold; turn the lights down")
+        raise SkinError(f"{skin.name}: the lookup exceeds the range of a float image: reduce the power of the lights")
     return Table(colors, base.texel_mapping, tuple(float(w) for w in weight), base.matrices, choice, lighting, far)
 
 
@@ -169,26 +169,27 @@ def _choose_weights(skin: Skin, lights: list, world: World | None, irradiance: n
     if skin.surface is None:
         return OBJECT_WEIGHT
     surface = skin.surface
-    off = core().object_irradiance_error(lights, skin.point, surface.least, surface.most, surface.facing)
+    error = core().object_irradiance_error(lights, skin.point, surface.min, surface.max, surface.normal_cone)
     if world is not None:
-        off = np.add(off, world.environment.mean_irradiance_error)
+        error = np.add(error, world.environment.mean_irradiance_error)
     largest = float(np.abs(irradiance).max())
-    bound = float(off.max()) / largest if largest > 0.0 else 0.0
+    bound = float(error.max()) / largest if largest > 0.0 else 0.0
     return WeightsChoice("SURFACE" if skin.weights == "SURFACE" or bound > AUTO_TOLERANCE else "OBJECT", bound)
 
 
-def _lighting(skin: Skin, lights: list, world: World | None, room: Layout | None) -> Any:  # noqa: ANN401
-    """The light on the surface with as many terms as there may be, or as there is room for."""
+def _lighting(skin: Skin, lights: list, world: World | None, capacity: Layout | None) -> Any:  # noqa: ANN401
+    """The light on the surface with as many terms as allowed, or as fit."""
     sg = core()
     angular = _angular_weight(skin.base)
     environment = world.environment if world is not None else None
-    for most in range(MAX_TERMS, -1, -1):
-        found = sg.SurfaceLighting(lights, skin.surface.least, skin.surface.most, environment, angular, max_terms=most)
-        if room is None or room.holds(layout_of(found, skin.base[1])):
-            return found
+    box = skin.surface.min, skin.surface.max
+    for max_terms in range(MAX_TERMS, -1, -1):
+        lighting = sg.SurfaceLighting(lights, *box, environment, angular, max_terms=max_terms)
+        if capacity is None or capacity.holds(layout_of(lighting, skin.base[1])):
+            return lighting
     raise SkinError(
-        f"{skin.name}: its material has no room for these lamps, and none can be made while rendering; show the lamps "
-        "that render in the viewport once, or set Weights to Object"
+        f"{skin.name}: its material has too few nodes for these lights, and nodes cannot be added while rendering: "
+        "show the lights of the render in the viewport once, or set Lighting to Per Object"
     )
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the nodes of a world send to a diffuse surface: Background nodes, mixed and added, each a color or an image."""
+"""The light of a world's nodes on a diffuse surface: Background nodes, mixed and added, each a color or an image."""
 
 from typing import NamedTuple
 
@@ -14,70 +14,70 @@ IMAGE_NODE = "ShaderNodeTexEnvironment"
 class Background(NamedTuple):
     """The light of one Background node."""
 
-    color: tuple[float, float, float]  #: radiance, W/(m^2 sr); with an image, what the image is multiplied by
+    color: tuple[float, float, float]  #: radiance, W/(m^2 sr); with an image, the image's factor
     image: str  #: name with library of the image; "": none
     projection: str  #: of the image, 'EQUIRECTANGULAR' or 'MIRROR_BALL'
-    image_from_world: Rows  #: takes a direction of the world to the image's, orthogonal
+    image_from_world: Rows  #: orthogonal; maps world directions to image directions
 
 
-class Followed(NamedTuple):
-    """What was found, and what could not be followed."""
+class WorldLight(NamedTuple):
+    """The backgrounds found, and a note of what is not supported."""
 
     backgrounds: tuple[Background, ...]
     note: str
 
 
-def follow_world(tree: bpy.types.NodeTree) -> Followed:
-    """Reads the backgrounds that reach a world's active output."""
+def read_world_nodes(tree: bpy.types.NodeTree) -> WorldLight:
+    """Reads the backgrounds that contribute to a world's active output."""
     output = tree.get_output_node("ALL")
     source = linked_node(output.inputs["Surface"]) if output is not None else None
     if source is None:
-        return Followed((), "its nodes have no shader linked to the output")
-    return _follow_shader(source, 1.0)
+        return WorldLight((), "its nodes have no shader linked to the output")
+    return _read_shader(source, 1.0)
 
 
-def _follow_shader(node: bpy.types.Node | None, share: float) -> Followed:
-    if node is None or share == 0.0:
-        return Followed((), "")
+def _read_shader(node: bpy.types.Node | None, factor: float) -> WorldLight:
+    if node is None or factor == 0.0:
+        return WorldLight((), "")
     if node.bl_idname == "ShaderNodeBackground":
-        return _follow_background(node, share)
+        return _read_background(node, factor)
     if node.bl_idname == "ShaderNodeAddShader":
-        return _together(*(_follow_shader(linked_node(socket), share) for socket in node.inputs))
+        return _added(*(_read_shader(linked_node(socket), factor) for socket in node.inputs))
     if node.bl_idname == "ShaderNodeMixShader":
         fraction, note = _mix_fraction(node.inputs[0])
         first, second = (linked_node(socket) for socket in node.inputs[1:3])
-        mixed = _together(_follow_shader(first, share * (1.0 - fraction)), _follow_shader(second, share * fraction))
+        mixed = _added(_read_shader(first, factor * (1.0 - fraction)), _read_shader(second, factor * fraction))
         return mixed._replace(note=note or mixed.note)
-    return Followed((), f"its node '{node.name}' is no Background and is not followed")
+    return WorldLight((), f"its node '{node.name}' is not a Background node and is ignored")
 
 
-def _together(first: Followed, second: Followed) -> Followed:
-    return Followed(first.backgrounds + second.backgrounds, first.note or second.note)
+def _added(first: WorldLight, second: WorldLight) -> WorldLight:
+    return WorldLight(first.backgrounds + second.backgrounds, first.note or second.note)
 
 
 def _mix_fraction(socket: bpy.types.NodeSocket) -> tuple[float, str]:
     source = linked_socket(socket)
     if source is not None and source.node.bl_idname == "ShaderNodeLightPath" and source.name == "Is Camera Ray":
-        # The usual way to show the camera another sky than the one that lights the scene.
+        # The usual setup that shows the camera another sky than the one that lights the scene.
         return 0.0, ""
     value, note = socket_value(socket)
     return min(max(value, 0.0), 1.0), note
 
 
-def _follow_background(node: bpy.types.Node, share: float) -> Followed:
+def _read_background(node: bpy.types.Node, factor: float) -> WorldLight:
     strength, note = socket_value(node.inputs["Strength"])
-    strength *= share
+    strength *= factor
     source = linked_node(node.inputs["Color"])
     if source is not None and source.bl_idname == IMAGE_NODE:
         if source.image is None:
-            return Followed((), f"its node '{source.name}' has no image")
+            return WorldLight((), f"its node '{source.name}' has no image")
         rows, mapping_note = image_from_world(source.inputs["Vector"])
         image = source.image.original.name_full
         light = Background((strength,) * 3, image, source.projection, rows)
-        return Followed((light,), note or mapping_note)
+        return WorldLight((light,), note or mapping_note)
     color, color_note = socket_value(node.inputs["Color"])
     if color_note:
-        # The color in the socket is not what is seen here: better dark, and say so, than any color.
-        return Followed((), f"its node '{source.name}' is not followed and lights nothing here")
+        # The color in the socket is not the one rendered: no light, with a note, is better than a wrong color.
+        return WorldLight((), f"its node '{source.name}' is not supported and lights nothing")
     radiance = tuple(float(c) * strength for c in tuple(color)[:3])
-    return Followed((Background(radiance, "", "", IDENTITY),), note)
+    return WorldLight((Background(radiance, "", "", IDENTITY),), note)

@@ -95,7 +95,7 @@ def with_attribute(ball: bpy.types.Object) -> Callable[[], None]:
     mesh.attributes.new(ATTRIBUTE, "FLOAT_COLOR", "POINT")
 
     def fill() -> None:
-        lights = [make_light(lamp) for lamp in read_scene(graph()).lamps]
+        lights = [make_light(lamp) for lamp in read_scene(graph()).lights]
         colors[:, :3] = sg.far_side_irradiance(lights, points, normals, DEPTH)
         mesh.attributes[ATTRIBUTE].data.foreach_set("color", colors.ravel())
         mesh.update()

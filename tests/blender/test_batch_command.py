@@ -71,7 +71,7 @@ def test_pictures_progress_and_resume(program: Program, tmp_path: Path) -> None:
     (tmp_path / "both" / "0002.exr").unlink()
     again = program.run(options)
     assert again.returncode == 0, again.stdout + again.stderr
-    assert "1 rendered, 3 kept, 0 failed" in again.stderr and "its file is gone" in again.stderr
+    assert "1 rendered, 3 kept, 0 failed" in again.stderr and "its file is missing" in again.stderr
     assert len(manifest(tmp_path)) == 5
 
 
@@ -87,8 +87,8 @@ def test_by_default_beside_the_file_as_the_scene_has_it(program: Program) -> Non
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (["--rigs", "Nothing"], "'Nothing' is neither a lamp nor a collection of lamps"),
-        (["--frames", "9-1"], "runs backwards: write 1-9"),
+        (["--rigs", "Nothing"], "'Nothing' is neither a light nor a collection of lights"),
+        (["--frames", "9-1"], "is reversed: write 1-9"),
         (["--out", "/proc/nothing"], "Cannot write to /proc/nothing"),
         (["--scene", "Nothing"], "There is no scene 'Nothing'"),
         (["--speed", "9"], "unrecognized arguments: --speed 9"),
@@ -113,7 +113,7 @@ def test_one_that_fails_leaves_the_others(program: Program, tmp_path: Path) -> N
     text += "off.objects.link(fill); off.hide_render = True\nsb.batch_main()"
     done = program.run(["--rigs", "Fill", "Key", "--frames", "1", "--out", str(tmp_path)], text)
     assert done.returncode == 1, done.stdout + done.stderr
-    assert "Fill, frame 1: FAILED: lamp 'Fill' of the rig is not in the render" in done.stderr
+    assert "Fill, frame 1: FAILED: light 'Fill' of the rig is not in the render" in done.stderr
     assert [e["rig"] for e in manifest(tmp_path)] == ["Key"]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Frames x light rigs as pictures, resumable, with a manifest of what each picture was made with (docs/batch.md)."""
+"""Renders frames x light rigs, resumable, with a manifest of the inputs of each picture (docs/batch.md)."""
 
 from .command import main, register, unregister
 from .render import BatchResult, BatchStep, render_batch

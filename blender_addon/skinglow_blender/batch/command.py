@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The batch from a command line: `blender -b scene.blend --python-expr ...` and `blender --command skinglow ...`."""
+"""The command line of batches: `blender -b scene.blend --python-expr ...` and `blender --command skinglow ...`."""
 
 import argparse
 import signal
@@ -16,7 +16,7 @@ from ..errors import SkinError
 from .pictures import PATTERN
 from .render import BatchStep, render_batch
 
-#: Exit codes: as asked; some pictures failed, the others are done; bad arguments, nothing done; stopped by Ctrl-C.
+#: Exit codes: all done; some pictures failed, the others are done; bad arguments, nothing done; stopped by Ctrl-C.
 DONE, SOME_FAILED, BAD_ARGUMENTS, STOPPED = 0, 1, 2, 130
 
 USAGE = """
@@ -25,50 +25,56 @@ USAGE = """
 EXAMPLES = """examples of OPTIONS:
   --frames 1-10,15 --rigs Sunset Neon --out //batch
   --frames 1-100x5 --rigs "day=Key,Fill" noon.json --onto Head
-exit code: 0 all pictures are there; 1 some failed, the others are there; 2 nothing could begin; 130 stopped by Ctrl-C
-The same command again renders only what is missing or out of date."""
+exit code: 0 all pictures are complete; 1 some failed, the others are complete; 2 bad arguments, nothing rendered;
+130 stopped by Ctrl-C
+Running the same command again renders only what is missing or out of date."""
 
 
 def parser() -> argparse.ArgumentParser:
-    """The options; --help tells each."""
+    """The options, as listed by --help."""
     found = argparse.ArgumentParser(
         prog="skinglow",
         usage=USAGE,
-        description="Renders frames x light rigs of a scene whose skins glow, with a manifest of each picture.",
+        description="Renders frames x light rigs of a scene with glowing skins, and writes a manifest of their inputs.",
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add = found.add_argument
-    add("--blend", type=Path, metavar="FILE", help="the scene's file, where Blender was started without one")
-    add("--scene", metavar="NAME", help="scene of the file (default: the one it was saved with)")
+    add("--blend", type=Path, metavar="FILE", help="blend file, if Blender was started without one")
+    add("--scene", metavar="NAME", help="scene in the file (default: the active one)")
     add("--frames", metavar="RANGES", help='such as 1-10,15 or 1-100x5 (default: the scene\'s range); "--frames=-5-3"')
     add(
         "--rigs",
         nargs="+",
         metavar="RIG",
-        help="each a lamp or a collection of lamps by name, NAME=LAMP,LAMP, or a rig file (.json, .sl) "
-        "(default: the lamps as they are, as one rig 'scene')",
+        help="a light or a collection of lights by name, NAME=LIGHT,LIGHT, or a rig file (.json, .sl) "
+        "(default: the lights of the scene, unchanged, as one rig 'scene')",
     )
-    add("--out", default="//batch", metavar="FOLDER", help="default //batch: beside the blend file")
-    add("--pattern", default=PATTERN, help=f"of the file names, default {PATTERN}".replace("%", "%%"))
-    add("--onto", metavar="SKIN", help="put the point of rig files onto this object's reference point")
-    add("--again", action="store_true", help="render also what is there and up to date")
-    add("--worker", default="", metavar="NAME", help="of a farm: write a manifest of its own, manifest-NAME.jsonl")
+    add("--out", default="//batch", metavar="FOLDER", help="output folder (default: //batch, next to the blend file)")
+    add("--pattern", default=PATTERN, help=f"pattern of the file names (default: {PATTERN})".replace("%", "%%"))
+    add("--onto", metavar="SKIN", help="move the point of rig files to the reference point of this object")
+    add("--again", action="store_true", help="also render pictures that are up to date")
+    add(
+        "--worker",
+        default="",
+        metavar="NAME",
+        help="write a separate manifest, manifest-NAME.jsonl, for this farm worker",
+    )
     return found
 
 
 def run(arguments: Sequence[str]) -> int:
-    """What the command line asks for; returns the exit code and raises nothing but for faults of Blender itself."""
+    """Runs the command line; returns the exit code and reports all errors except those of Blender itself."""
     try:
         options = parser().parse_args(list(arguments))
-    except SystemExit as end:  # argparse has said what is wrong, or shown its help
+    except SystemExit as end:  # argparse has printed the error or the help
         return end.code if isinstance(end.code, int) else BAD_ARGUMENTS
     try:
         with _stopping_after_a_picture() as progress:
             _open(options.blend)
             scene = _named(bpy.data.scenes, options.scene, "scene") or bpy.context.scene
             if options.out.startswith("//") and not bpy.data.filepath:
-                raise SkinError("--out: the scene was not saved, so that there is no folder beside it: give a folder")
+                raise SkinError("--out: the scene was not saved, so // has no folder: give a folder")
             result = render_batch(
                 options.out,
                 options.frames,
@@ -84,7 +90,7 @@ def run(arguments: Sequence[str]) -> int:
         _say(f"skinglow: {error}")
         return BAD_ARGUMENTS
     except KeyboardInterrupt:
-        _say("skinglow: stopped; the same command goes on from here")
+        _say("skinglow: stopped; run the same command to continue")
         return STOPPED
     counts = f"{len(result.rendered)} rendered, {len(result.kept)} kept, {len(result.failed)} failed"
     _say(f"skinglow: {counts}; {result.manifest}")
@@ -92,7 +98,7 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
-    """Runs with what stands after `--` on Blender's command line, and ends Blender with the exit code."""
+    """Runs with the arguments after `--` on Blender's command line, and quits Blender with the exit code."""
     if arguments is None:
         arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
     code = run(arguments)
@@ -104,7 +110,7 @@ def _open(path: Path | None) -> None:
     if path is None:
         return
     if not path.is_file():
-        raise SkinError(f"--blend: there is no file {path}")
+        raise SkinError(f"--blend: no such file: {path}")
     try:
         bpy.ops.wm.open_mainfile(filepath=str(path.absolute()), load_ui=False)
     except RuntimeError as error:
@@ -124,7 +130,7 @@ def _named(
 
 @contextmanager
 def _stopping_after_a_picture() -> Iterator["_Progress"]:
-    """Ctrl-C ends the batch after the picture at work. Blender would cancel that render and go on with the next."""
+    """Ctrl-C ends the batch after the current picture. Blender itself would cancel it and go on with the next."""
     progress = _Progress()
     if threading.current_thread() is not threading.main_thread():
         yield progress
@@ -133,12 +139,12 @@ def _stopping_after_a_picture() -> Iterator["_Progress"]:
     try:
         yield progress
     finally:
-        # None: a handler that was not set from Python, Blender's own; Python cannot put that back.
+        # None: the handler was not set from Python but by Blender; Python cannot restore that.
         signal.signal(signal.SIGINT, signal.SIG_DFL if before is None else before)
 
 
 class _Progress:
-    """A line on standard error for each picture."""
+    """Prints a line to standard error for each picture."""
 
     def __init__(self) -> None:
         self.stopped = False
@@ -175,14 +181,14 @@ _command = None
 
 
 def register() -> None:
-    """Makes `blender --command skinglow` known, where Blender has such commands (4.2 and later)."""
+    """Registers `blender --command skinglow`, if Blender has such commands (4.2 and later)."""
     global _command
     if hasattr(bpy.utils, "register_cli_command"):
         _command = bpy.utils.register_cli_command("skinglow", run)
 
 
 def unregister() -> None:
-    """Takes the command back."""
+    """Unregisters the command."""
     global _command
     if _command is not None:
         bpy.utils.unregister_cli_command(_command)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Digests of what a picture is made from, by which a batch knows that it need not be made again."""
+"""Digests of the inputs of a picture, by which a batch detects that it is up to date."""
 
 from pathlib import Path
 from typing import Any
@@ -8,26 +8,26 @@ import bpy
 
 from .. import blender_version
 from ..errors import core
-from ..scene_lights import read_lamp
+from ..scene_lights import read_light
 from ..skin_settings import SETTING_NAMES
 from .manifest import data_digest, file_digest
-from .rigs import ReadyRig, lamps_of
+from .rigs import ReadyRig, light_objects
 
-#: Settings that do not change a picture, or that the batch itself sets.
+#: Settings that do not affect a picture, or that the batch itself sets.
 NOT_IN_PICTURES = frozenset(
     "filepath threads threads_mode use_lock_interface use_persistent_data use_overwrite use_placeholder device".split()
 )
 
 
 def scene_inputs(scene: bpy.types.Scene) -> dict[str, str]:
-    """What every picture of a scene depends on, a digest each; the scene stands at a frame that is always the same.
+    """Digests of the inputs of all pictures of a scene, which has to be at a fixed frame.
 
     files     the blend file as saved, its libraries and the images it reads
     render    settings of rendering, color management and output, and the camera
     skins     the settings of every skin
-    programs  versions, in words
-    What was changed in memory alone shows where it is a lamp, a camera, a setting or animation of these; a mesh or
-    a material that was changed has to be saved.
+    programs  versions, as text
+    Unsaved changes to lights, cameras, settings and their animation are included; changed meshes and materials have to
+    be saved first.
     """
     render = [_plain_values(owner) for owner in _render_settings(scene)]
     camera = scene.camera
@@ -49,35 +49,35 @@ def scene_inputs(scene: bpy.types.Scene) -> dict[str, str]:
 
 
 def rig_inputs(scene: bpy.types.Scene, ready: ReadyRig, onto: tuple[float, float, float] | None) -> dict[str, str]:
-    """What the pictures of one rig depend on besides: its lamps, its file and where that is put."""
-    lamps = [
+    """Digests of the additional inputs of one rig: its lights, its file and the target point."""
+    lights = [
         [
-            read_lamp(obj, obj.matrix_world, obj.name).signature,
+            read_light(obj, obj.matrix_world, obj.name).signature,
             obj.visible_diffuse,
             _animation(obj),
             _animation(obj.data),
             obj.hide_render if ready.shown is None else None,
         ]
-        for obj in sorted(lamps_of(scene), key=lambda obj: obj.name)
+        for obj in sorted(light_objects(scene), key=lambda obj: obj.name)
         if ready.shown is None or obj.name in ready.shown
     ]
     file = file_digest(ready.rig.file) if ready.rig.file is not None else None
-    return {"rig": data_digest([ready.shown, lamps, file, onto if file else None])}
+    return {"rig": data_digest([ready.shown, lights, file, onto if file else None])}
 
 
 def skin_values(obj: bpy.types.Object) -> dict[str, Any]:
-    """A skin's settings by name, as `make_skin` takes them."""
+    """A skin's settings by name, as `make_skin` accepts them."""
     return {name: _plain(getattr(obj.skinglow, name)) for name in SETTING_NAMES}
 
 
 def _files() -> list[tuple[str, str]]:
-    """Name and digest of the files that the open one is made of; those that are not there are left out."""
+    """Name and digest of the blend file, its libraries and images; missing files are skipped."""
     paths = {bpy.data.filepath} if bpy.data.filepath else set()
     paths |= {bpy.path.abspath(library.filepath) for library in bpy.data.libraries}
     for image in bpy.data.images:
         if image.source == "FILE" and image.filepath and image.packed_file is None:
             paths.add(bpy.path.abspath(image.filepath, library=image.library))
-    # By name alone: the machines of a farm may see one folder under several paths.
+    # Names only: the machines of a farm may see a folder under different paths.
     return sorted((path.name, _digest_if_readable(path)) for path in map(Path, paths) if path.is_file())
 
 
@@ -102,7 +102,7 @@ def engine_settings(scene: bpy.types.Scene) -> Any:  # noqa: ANN401
 
 
 def _plain_values(owner: Any) -> dict[str, Any]:  # noqa: ANN401
-    """The settings of one of Blender's structs that are numbers, texts or names of data."""
+    """The settings of a Blender struct that are numbers, strings or data-blocks (by name)."""
     return {
         prop.identifier: _plain(getattr(owner, prop.identifier))
         for prop in owner.bl_rna.properties
@@ -128,7 +128,7 @@ def _numbers(matrix: Any) -> list[float]:  # noqa: ANN401
 
 
 def _animation(owner: bpy.types.ID) -> list[Any]:
-    """The curves that move a data block: keyframes, and the expressions of drivers."""
+    """The animation of a data-block: keyframes, and the expressions of drivers."""
     found = []
     for curve in blender_version.animation_curves(owner):
         driver = getattr(curve, "driver", None)

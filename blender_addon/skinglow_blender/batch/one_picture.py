@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One picture of a batch: rendered beside its place, read, and put there when it is whole."""
+"""One picture of a batch: rendered to a temporary file and renamed when it is complete."""
 
 import glob
 import os
@@ -15,17 +15,17 @@ from .. import blender_version
 from ..errors import SkinError, core
 from .inputs import engine_settings
 from .manifest import file_digest
-from .rigs import ReadyRig, check_lamps
+from .rigs import ReadyRig, check_lights
 from .shown import Shown, watching
 
-#: A temporary file is there only while a picture is written. One this old is of a worker that died.
+#: Temporary files exist only while a picture is written. One this old was left by a worker that died.
 STALE_SECONDS = 3600.0
 
 
 def make_picture(scene: bpy.types.Scene, frame: int, path: Path, ready: ReadyRig) -> dict[str, Any]:
-    """Renders a frame, whole or not at all; returns what the manifest tells of how it was made.
+    """Renders a frame atomically; returns the manifest's fields on how it was made.
 
-    Raises SkinError, RuntimeError or OSError with the reason where it could not be made as the rig asks.
+    Raises SkinError, RuntimeError or OSError with the reason if it could not be rendered with that rig.
     """
     started = time.perf_counter()
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -34,7 +34,7 @@ def make_picture(scene: bpy.types.Scene, frame: int, path: Path, ready: ReadyRig
         shown = _render(scene, frame, partial)
         if shown.faults:
             raise SkinError("; ".join(dict.fromkeys(shown.faults)))
-        check_lamps(ready, scene, shown.lamps)
+        check_lights(ready, scene, shown.lights)
         with partial.open("rb+") as file:
             os.fsync(file.fileno())
         size, digest = partial.stat().st_size, file_digest(partial)
@@ -60,7 +60,7 @@ def _render(scene: bpy.types.Scene, frame: int, partial: Path) -> Shown:
     with watching(scene) as shown:
         bpy.ops.render.render(write_still=True, scene=scene.name)
     if not partial.is_file() or partial.stat().st_size == 0:
-        raise SkinError("Blender wrote no picture: the render was cancelled or failed (its own output says why)")
+        raise SkinError("Blender wrote no picture: the render was canceled or failed (see Blender's own output)")
     return shown
 
 
@@ -80,7 +80,7 @@ def _made_with(scene: bpy.types.Scene) -> dict[str, Any]:
 
 
 def _clear_stale(path: Path) -> None:
-    """Removes what workers that died left of this picture."""
+    """Removes temporary files of this picture left by workers that died."""
     for leftover in path.parent.glob(f".{glob.escape(path.stem)}.*.part{path.suffix}"):
         try:
             if time.time() - leftover.stat().st_mtime > STALE_SECONDS:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rendering the pictures of a batch, one after another, and leaving the scene as it was."""
+"""Renders the pictures of a batch, one after another, and restores the scene."""
 
 import os
 import time
@@ -23,25 +23,25 @@ from .rigs import ReadyRig, RigLike, as_rigs, lit_by, make_ready
 
 
 class BatchStep(NamedTuple):
-    """What a progress callback is told, before and after each picture that is rendered, and of those kept."""
+    """The argument of a progress callback, before and after each rendered picture and for each kept one."""
 
     state: str  #: 'KEPT', 'RENDERING', 'RENDERED' or 'FAILED'
     rig: str
     frame: int
     file: Path
     reason: str  #: why it is rendered, or why it failed
-    done: int  #: pictures that are dealt with, kept ones among them
+    done: int  #: pictures that are finished, including kept ones
     total: int
-    seconds: float  #: that this picture took
-    seconds_left: float | None  #: for the rest, by the mean so far; None before the first
+    seconds: float  #: render time of this picture
+    seconds_left: float | None  #: estimate for the remaining pictures, from the mean so far; None before the first
 
 
 class BatchResult(NamedTuple):
-    """What became of a batch."""
+    """The result of a batch."""
 
     rendered: tuple[Path, ...]
-    kept: tuple[Path, ...]  #: there already, whole and up to date
-    failed: tuple[tuple[Path, str], ...]  #: with the reason, in words
+    kept: tuple[Path, ...]  #: existing, complete and up to date
+    failed: tuple[tuple[Path, str], ...]  #: with the reason
     manifest: Path
 
 
@@ -60,20 +60,20 @@ def render_batch(
     worker: str = "",
     progress: Progress | None = None,
 ) -> BatchResult:
-    """Renders frames x light rigs into a folder, with a manifest of what each picture was made with (docs/batch.md).
+    """Renders frames x light rigs into a folder, with a manifest of the inputs of each picture (docs/batch.md).
 
-    folder    where pictures and manifest go; "//" is the blend file's folder
+    folder    output folder of pictures and manifest; "//" is the blend file's folder
     frames    "1-10,15", "1-100x5", a number or an iterable of them; None: the scene's range
-    rigs      names of lamps or collections, "name=Key,Fill", rig files, or a mapping of names to these (rigs.as_rigs);
-              None: the scene's lamps as they are, named "scene"
+    rigs      names of lights or collections, "name=Key,Fill", rig files, or a mapping of names to these (rigs.as_rigs);
+              None: the scene's lights, unchanged, as one rig "scene"
     scene     None: the context's
     pattern   file name in the folder, of {rig}, {frame} and {scene}; the format's extension is added
-    resume    keep pictures that are there, whole, and were made from the same inputs; False: render all
-    onto      a skin: a rig file's point is put onto its reference point; None: lamps stand where the file says
-    worker    of a farm: names a manifest of its own
-    progress  called with a BatchStep; an exception of its ends the batch, and what is done stays done
-    Lamps, rig files, frames, folder and names are checked before anything is rendered (SkinError). A picture that
-    cannot be made does not stop the others. The scene is as before when this returns or raises.
+    resume    keep pictures that are complete and were made from the same inputs; False: render all
+    onto      a skin to whose reference point a rig file's point is moved; None: lights are placed as in the file
+    worker    name of a farm worker, which then writes its own manifest
+    progress  called with a BatchStep; an exception in it ends the batch, and finished pictures are kept
+    Lights, rig files, frames, folder and names are checked before anything is rendered (SkinError). A picture that
+    fails does not stop the others. The scene is restored when this returns or raises.
     """
     scene = scene or bpy.context.scene
     if frames is None:
@@ -96,15 +96,13 @@ def render_batch(
 
 def _check_scene(scene: bpy.types.Scene) -> None:
     if scene.camera is None and not any(marker.camera for marker in scene.timeline_markers):
-        raise SkinError(
-            f"Scene '{scene.name}' has no camera to render with: add one, or set it in the scene's properties"
-        )
+        raise SkinError(f"Scene '{scene.name}' has no camera: add one, or set it in the Scene properties")
     if not any(obj.type == "MESH" and obj.skinglow.enabled for obj in scene.objects):
-        raise SkinError(f"Scene '{scene.name}' has no skin: make_skin, or the button Make Skin Glow, makes a mesh one")
+        raise SkinError(f"Scene '{scene.name}' has no skin: create one with make_skin or the button Make Skin Glow")
 
 
 def _keep(undo: ExitStack, scene: bpy.types.Scene) -> None:
-    """Notes what a batch changes of a scene, so that leaving `undo` brings it back."""
+    """Registers everything that a batch changes in a scene to be restored when `undo` is closed."""
     render = scene.render
     undo.callback(_show_viewport_again, scene)
     # Markers bind cameras to frames.
@@ -112,7 +110,7 @@ def _keep(undo: ExitStack, scene: bpy.types.Scene) -> None:
     undo.callback(scene.frame_set, scene.frame_current, subframe=scene.frame_subframe)
     for name in ("filepath", "use_lock_interface"):
         undo.callback(setattr, render, name, getattr(render, name))
-    # A window that drew while its data is rendered could crash Blender.
+    # Redrawing a window while its data is rendered can crash Blender.
     render.use_lock_interface = True
 
 
@@ -122,7 +120,7 @@ def _show_viewport_again(scene: bpy.types.Scene) -> None:
 
 
 class _Batch:
-    """What is the same for all pictures of a batch, and what has become of them so far."""
+    """The common data of all pictures of a batch, and the results so far."""
 
     def __init__(
         self,
@@ -134,7 +132,7 @@ class _Batch:
     ) -> None:
         self.scene, self.ready, self.manifest, self.progress = scene, ready, manifest, progress
         self.folder = manifest.folder
-        # Values read below are those of one frame, whatever frame the file stands at.
+        # The values read below are those of a fixed frame, independent of the file's current frame.
         scene.frame_set(scene.frame_start)
         self.onto = None
         if onto is not None:
@@ -156,7 +154,7 @@ class _Batch:
         for entry in self.manifest.entries() if resume else ():
             entries.setdefault(str(entry.get("file")), []).append(entry)
         for picture in pictures:
-            why = "asked for again"
+            why = "requested again"
             if resume:
                 inputs = self.inputs[picture.rig]
                 why = why_not_kept(self.folder, picture, entries.get(picture.name, []), inputs)
@@ -164,7 +162,7 @@ class _Batch:
                 to_do.setdefault(picture.rig, []).append((picture, why))
             else:
                 self.kept.append(self.folder / picture.name)
-                self.tell("KEPT", picture, "", 0.0)
+                self.report("KEPT", picture, "", 0.0)
         for index, todo in to_do.items():
             self.run_rig(self.ready[index], todo)
         return BatchResult(tuple(self.rendered), tuple(self.kept), tuple(self.failed), self.manifest.path)
@@ -178,7 +176,7 @@ class _Batch:
             except SkinError as error:
                 fault = str(error)
             for picture, why in to_do:
-                self.tell("RENDERING", picture, why, 0.0)
+                self.report("RENDERING", picture, why, 0.0)
                 started = time.perf_counter()
                 path = self.folder / picture.name
                 state, reason = "RENDERED", why
@@ -187,17 +185,17 @@ class _Batch:
                         raise SkinError(fault)
                     name, inputs = picture.name, self.inputs[picture.rig]
                     entry = make_picture(self.scene, picture.frame, path, ready)
-                    told = {"file": name, "frame": picture.frame, "rig": picture.rig_name, "notes": notes}
-                    self.manifest.append({**told, **entry, "inputs": inputs})
+                    identity = {"file": name, "frame": picture.frame, "rig": picture.rig_name, "notes": notes}
+                    self.manifest.append({**identity, **entry, "inputs": inputs})
                     self.rendered.append(path)
                 except (SkinError, ValueError, RuntimeError, OSError) as error:
                     state, reason = "FAILED", " ".join(str(error).split())
                     self.failed.append((path, reason))
                 seconds = time.perf_counter() - started
                 self.seconds += seconds
-                self.tell(state, picture, reason, seconds)
+                self.report(state, picture, reason, seconds)
 
-    def tell(self, state: str, picture: Picture, reason: str, seconds: float) -> None:
+    def report(self, state: str, picture: Picture, reason: str, seconds: float) -> None:
         if self.progress is None:
             return
         made = len(self.rendered) + len(self.failed)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Light rigs of a batch: some of the scene's lamps, or the lamps of a rig file, for as long as pictures are made."""
+"""Light rigs of a batch: a selection of the scene's lights, or the lights of a rig file added temporarily."""
 
+import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from os import PathLike
@@ -11,26 +12,46 @@ import bpy
 
 from .. import blender_version
 from ..errors import SkinError, core
-from .rig_lamps import placed_lamps
+from .rig_lights import added_lights
 
 FILE_SUFFIXES = (".json", ".sl")
 
 
-class Rig(NamedTuple):
-    """A light rig: what shines in its pictures, beside the world and what glows by itself."""
-
+class _Rig(NamedTuple):
     name: str  #: in file names and the manifest
-    #: Names of lamps and of collections of lamps that shine; all others are hidden. None: as the scene has it.
-    lamps: tuple[str, ...] | None = None
-    file: Path | None = None  #: rig file (docs/rig_format.md) or studio light, whose lamps are added
+    #: Names of visible lights and collections of lights; all other lights are hidden. None: as in the scene.
+    lights: tuple[str, ...] | None = None
+    file: Path | None = None  #: rig file (docs/rig_format.md) or studio light, whose lights are added
+
+
+class Rig(_Rig):
+    """A light rig: the lights of its pictures, in addition to the world and emissive materials."""
+
+    __slots__ = ()
+
+    def __new__(cls, name: str, lights: tuple[str, ...] | None = None, file: Path | None = None, **old: Any) -> "Rig":  # noqa: ANN401
+        if "lamps" in old:
+            _warn_of_lamps()
+            lights = old.pop("lamps")
+        return super().__new__(cls, name, lights, file, **old)
+
+    @property
+    def lamps(self) -> tuple[str, ...] | None:
+        """Deprecated name of `lights`."""
+        _warn_of_lamps()
+        return self.lights
+
+
+def _warn_of_lamps() -> None:
+    warnings.warn("skinglow_blender.Rig.lamps is now skinglow_blender.Rig.lights", DeprecationWarning, stacklevel=3)
 
 
 class ReadyRig(NamedTuple):
-    """A rig whose names and file were found to be right."""
+    """A rig whose names and file have been checked."""
 
     rig: Rig
-    shown: tuple[str, ...] | None  #: lamp objects of the scene that shine; None: as the scene has it
-    collections: tuple[str, ...]  #: the collections that were named
+    shown: tuple[str, ...] | None  #: names of the visible light objects; None: as in the scene
+    collections: tuple[str, ...]  #: names of the collections of the rig
     found: Any  #: skinglow.LightRig of the file, or None
 
 
@@ -38,12 +59,12 @@ RigLike = Rig | str | PathLike
 
 
 def as_rigs(rigs: RigLike | Iterable[RigLike] | Mapping[str, Any] | None) -> list[Rig]:
-    """Rigs as `render_batch` takes them; raises SkinError where a name is missing, doubled or no file name.
+    """Converts the rigs of `render_batch`; raises SkinError if a name is missing, duplicate or not a file name.
 
-    None            one rig "scene": the lamps as they are
-    "Sunset"        the lamps of the collection of that name, or the lamp of that name
-    "day=Key,Fill"  the same with a name of its own, several with commas between
-    "noon.json", "evening=dusk.sl"  a file's lamps; the scene's own are hidden
+    None            one rig "scene": the lights of the scene, unchanged
+    "Sunset"        the lights of the collection of that name, or the light of that name
+    "day=Key,Fill"  several lights or collections, under a name of your own
+    "noon.json", "evening=dusk.sl"  the lights of a file; those of the scene are hidden
     {"day": ["Key", "Fill"], "noon": Path("noon.json")}, or Rig objects
     """
     if rigs is None:
@@ -54,13 +75,15 @@ def as_rigs(rigs: RigLike | Iterable[RigLike] | Mapping[str, Any] | None) -> lis
         single = isinstance(rigs, str | PathLike | Rig)
         found = [_of_one(rig) for rig in ([rigs] if single else rigs)]
     if not found:
-        raise SkinError("No light rigs were asked for: name lamps, collections or rig files")
+        raise SkinError("No light rigs given: name lights, collections or rig files")
     names = [rig.name for rig in found]
     for name in names:
         if names.count(name) > 1:
-            raise SkinError(f"Two light rigs are named '{name}': give each a name of its own, NAME=...")
+            raise SkinError(f"Two light rigs are named '{name}': give each a different name, NAME=...")
         if not name or name != name.strip() or name.startswith(".") or any(c in '/\\:*?"<>|' for c in name):
-            raise SkinError(f"'{name}' cannot be the name of a light rig, as pictures are named by it: give NAME=...")
+            raise SkinError(
+                f"'{name}' is not allowed as the name of a light rig, since it is used in file names: give NAME=..."
+            )
     return found
 
 
@@ -88,7 +111,7 @@ def _is_file(text: str) -> bool:
 
 
 def make_ready(scene: bpy.types.Scene, rig: Rig) -> ReadyRig:
-    """Finds a rig's lamps and reads its file; raises SkinError naming what is not there and what is."""
+    """Finds a rig's lights and reads its file; raises SkinError naming what is missing and what exists."""
     found = None
     if rig.file is not None:
         path = Path(bpy.path.abspath(str(rig.file)))
@@ -97,45 +120,45 @@ def make_ready(scene: bpy.types.Scene, rig: Rig) -> ReadyRig:
         except ValueError as error:
             raise SkinError(f"Light rig '{rig.name}': {error}") from error
         rig = rig._replace(file=path)
-    if rig.lamps is None:
+    if rig.lights is None:
         return ReadyRig(rig, None, (), found)
-    lamps = {obj.name: obj for obj in lamps_of(scene)}
+    lights = {obj.name: obj for obj in light_objects(scene)}
     collections = {c.name: c for c in (scene.collection, *scene.collection.children_recursive)}
     shown: list[str] = []
     named: list[str] = []
-    for name in rig.lamps:
+    for name in rig.lights:
         inside = [o.name for o in collections[name].all_objects if o.type == "LIGHT"] if name in collections else []
-        if not inside and name not in lamps:
-            have = ", ".join(f"'{n}'" for n in sorted(lamps)) or "none"
-            what = "holds no lamps" if name in collections else "is neither a lamp nor a collection of lamps"
-            raise SkinError(f"Light rig '{rig.name}': '{name}' {what} of scene '{scene.name}'; its lamps: {have}")
+        if not inside and name not in lights:
+            have = ", ".join(f"'{n}'" for n in sorted(lights)) or "none"
+            what = "contains no lights" if name in collections else "is neither a light nor a collection of lights"
+            raise SkinError(f"Light rig '{rig.name}': '{name}' {what} of scene '{scene.name}'; its lights: {have}")
         if inside:
             named.append(name)
         shown += inside or [name]
     return ReadyRig(rig, tuple(dict.fromkeys(shown)), tuple(named), found)
 
 
-def lamps_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """All lamp objects of a scene, hidden or not, with those in collections that it instances."""
+def light_objects(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """All light objects of a scene, hidden or not, including those in instanced collections."""
     found: dict[bpy.types.Object, None] = {}
-    looked_at: set[bpy.types.Collection] = set()
+    visited: set[bpy.types.Collection] = set()
     objects = list(scene.objects)
     while objects:
         obj = objects.pop(0)
         if obj.type == "LIGHT":
             found[obj] = None
         instanced = obj.instance_collection
-        if instanced is not None and instanced not in looked_at:
-            looked_at.add(instanced)
+        if instanced is not None and instanced not in visited:
+            visited.add(instanced)
             objects += instanced.all_objects
     return list(found)
 
 
 @contextmanager
 def lit_by(scene: bpy.types.Scene, ready: ReadyRig, onto: tuple[float, float, float] | None) -> Iterator[list[str]]:
-    """While it lasts, a scene's renders are lit by that rig; gives notes on what could not be taken over.
+    """Context manager that lights a scene's renders by that rig; yields notes on what is not supported.
 
-    onto  where the point of a rig file comes to lie, world; None: its lamps stand where the file says
+    onto  target of a rig file's point, world; None: its lights are placed as in the file
     """
     with ExitStack() as undo:
         if ready.shown is not None:
@@ -143,16 +166,16 @@ def lit_by(scene: bpy.types.Scene, ready: ReadyRig, onto: tuple[float, float, fl
                 collection = bpy.data.collections.get(name)
                 for hiding in HIDING if collection is not None else ():
                     _set(undo, collection, hiding, False)
-            for obj in lamps_of(scene):
+            for obj in light_objects(scene):
                 _show_only_if(undo, obj, obj.name in ready.shown)
         notes = []
         if ready.found is not None:
-            notes = undo.enter_context(placed_lamps(scene, ready.found, onto))
+            notes = undo.enter_context(added_lights(scene, ready.found, onto))
         yield notes
 
 
-#: What hides an object or a collection. The viewport too has the rig's lamps: by them a skin's nodes get their room,
-#: which cannot be had while rendering.
+#: The properties that hide an object or a collection. The viewport is lit by the rig too, so that a skin gets the nodes
+#: for its lights, which cannot be added while rendering.
 HIDING = ("hide_render", "hide_viewport")
 
 
@@ -160,7 +183,7 @@ def _show_only_if(undo: ExitStack, obj: bpy.types.Object, shown: bool) -> None:
     for hiding in HIDING:
         curves = blender_version.animation_curves(obj, hiding)
         if shown and curves:
-            continue  # its animation says when it shines
+            continue  # its visibility is animated
         for curve in curves:
             if not curve.mute:
                 curve.mute = True
@@ -174,21 +197,21 @@ def _set(undo: ExitStack, owner: bpy.types.Object | bpy.types.Collection, hiding
         undo.callback(setattr, owner, hiding, not hidden)
 
 
-def check_lamps(ready: ReadyRig, scene: bpy.types.Scene, seen: set[str]) -> None:
-    """Raises SkinError where the lamps of a picture (`seen`, by Lamp.name) are not those of the rig."""
+def check_lights(ready: ReadyRig, scene: bpy.types.Scene, lit: set[str]) -> None:
+    """Raises SkinError if the lights of a picture (`lit`, by SceneLight.name) are not those of the rig."""
     if ready.shown is None:
         return
-    instanced = {name.split(" in ")[0] for name in seen}
-    for obj in lamps_of(scene):
-        here = obj.name in seen or obj.name in instanced
-        if here and obj.name not in ready.shown and obj.name not in _placed_names(scene):
-            raise SkinError(f"lamp '{obj.name}' is not of the rig and could not be hidden from the render")
+    instanced = {name.split(" in ")[0] for name in lit}
+    for obj in light_objects(scene):
+        here = obj.name in lit or obj.name in instanced
+        if here and obj.name not in ready.shown and obj.name not in _added_names(scene):
+            raise SkinError(f"light '{obj.name}' is not part of the rig and could not be hidden in the render")
         if not here and obj.name in ready.shown and not blender_version.animation_curves(obj, "hide_render"):
             raise SkinError(
-                f"lamp '{obj.name}' of the rig is not in the render: a collection above it is disabled in renders or "
+                f"light '{obj.name}' of the rig is not in the render: a collection above it is disabled in renders or "
                 "excluded from the view layer"
             )
 
 
-def _placed_names(scene: bpy.types.Scene) -> set[str]:
+def _added_names(scene: bpy.types.Scene) -> set[str]:
     return {obj.name for obj in scene.collection.objects if "skinglow_rig" in obj}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the skins show while a picture is rendered, read from the render's own depsgraph."""
+"""Records what the skins show while a picture is rendered, from the render's own depsgraph."""
 
 import hashlib
 import traceback
@@ -18,20 +18,20 @@ from .inputs import skin_values
 
 
 class Shown:
-    """Of one picture."""
+    """What the skins showed in one picture."""
 
     def __init__(self) -> None:
-        self.skins: list[dict[str, Any]] = []  #: for the manifest, one for each skin and view layer
-        self.lamps: set[str] = set()  #: names of the lamps that took part
+        self.skins: list[dict[str, Any]] = []  #: for the manifest, one per skin and view layer
+        self.lights: set[str] = set()  #: names of the lights in the render
         self.faults: list[str] = []
 
 
 @contextmanager
 def watching(scene: bpy.types.Scene) -> Iterator[Shown]:
-    """While it lasts, a render of that scene leaves what its skins show.
+    """Context manager that records what the skins show in renders of that scene.
 
-    The depsgraph that is handed to frame_change_post is the render's own; once for each view layer, and besides for
-    each step of motion blur, which show nothing of their own.
+    The depsgraph passed to frame_change_post is the render's own. It is called once per view layer, and also for each
+    motion blur step; those are ignored.
     """
     shown = Shown()
 
@@ -41,14 +41,14 @@ def watching(scene: bpy.types.Scene) -> Iterator[Shown]:
         if STATE.render_frame not in (None, rendered.frame_current_final):
             return
         try:
-            _note(shown, depsgraph)
+            _record(shown, depsgraph)
         except (SkinError, ValueError) as error:
             shown.faults.append(str(error))
         except Exception as error:  # noqa: BLE001  Blender would swallow it
-            shown.faults.append(f"Unexpected: {type(error).__name__}: {error}")
+            shown.faults.append(f"Unexpected {type(error).__name__}: {error}")
             traceback.print_exc()
 
-    # The add-on's own handler stands before this one and has brought the lookups up to date.
+    # The add-on's own handler runs before this one and has updated the lookups.
     bpy.app.handlers.frame_change_post.append(watch)
     try:
         yield shown
@@ -56,10 +56,10 @@ def watching(scene: bpy.types.Scene) -> Iterator[Shown]:
         bpy.app.handlers.frame_change_post.remove(watch)
 
 
-def _note(shown: Shown, depsgraph: bpy.types.Depsgraph) -> None:
+def _record(shown: Shown, depsgraph: bpy.types.Depsgraph) -> None:
     reading = read_scene(depsgraph)
     shown.faults += STATE.faults.values()
-    shown.lamps.update(lamp.name for lamp in reading.lamps)
+    shown.lights.update(light.name for light in reading.lights)
     for obj, _skin in reading.skins:
         shown.skins.append(_skin_entry(obj, depsgraph))
 
@@ -86,11 +86,11 @@ def _skin_entry(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> dict[s
             "entries": len(table),
             "max_thickness_mm": seen.base[2],
         },
-        "lamps": [_lamp_entry(row) for row in report],
+        "lamps": [_light_entry(row) for row in report],
     }
 
 
-def _lamp_entry(row: dict[str, Any]) -> dict[str, Any]:
+def _light_entry(row: dict[str, Any]) -> dict[str, Any]:
     distance = row["distance"]
     return {
         "name": row["name"],

@@ -34,7 +34,7 @@ def check_objects_that_cannot_be_skins(_work):
     for obj in (empty, flat):
         assert not obj.skinglow.enabled and not obj.material_slots
     assert not bpy.data.node_groups and not bpy.data.images
-    refused(sb.SkinError, "is not a skin yet", sb.lut, flat, depsgraph())
+    refused(sb.SkinError, "is not a skin", sb.lut, flat, depsgraph())
 
 
 def check_settings(_work):
@@ -43,7 +43,7 @@ def check_settings(_work):
     refused(ValueError, "mode = 'magic'", sb.make_skin, obj, thickness=THIN, mode="magic")
     refused(sb.SkinError, "4 vertices", sb.make_skin, obj, thickness=[1.0])
     refused(sb.SkinError, "negative or not finite", sb.make_skin, obj, thickness=[0, 1, 2, np.nan])
-    refused(sb.SkinError, "none is chosen", sb.make_skin, obj, thickness=THIN, base="image")
+    refused(sb.SkinError, "no image is selected", sb.make_skin, obj, thickness=THIN, base="image")
 
 
 def check_missing_image_keeps_the_last_good_lookup(work):
@@ -57,9 +57,9 @@ def check_missing_image_keeps_the_last_good_lookup(work):
     obj.skinglow.base_image = image
     obj.skinglow.base = "IMAGE"
     graph = depsgraph()
-    assert "still there" in live_update.STATE.faults["Patch"]
+    assert "check that its file" in live_update.STATE.faults["Patch"]
     np.testing.assert_array_equal(sb.lut(obj, graph)[:1], before[:1])
-    refused(sb.SkinError, "still there", sb.update, graph)
+    refused(sb.SkinError, "check that its file", sb.update, graph)
     obj.skinglow.base = "BUILTIN"
     assert_shows(obj, paper_table([key]))
     assert not live_update.STATE.faults

@@ -100,7 +100,7 @@ def check_interrupted_batch_goes_on_with_what_is_missing(work):
     assert names(result.kept, folder) == ["warm/0001.exr", "warm/0003.exr"]
     assert names(result.rendered, folder) == ["cold/0001.exr", "cold/0002.exr", "cold/0003.exr", "warm/0002.exr"]
     why = {(s.rig, s.frame): s.reason for s in steps if s.state == "RENDERED"}
-    assert why["warm", 2] == "its file is not the one that was written" and why["cold", 1] == "not rendered yet"
+    assert why["warm", 2] == "its file was modified" and why["cold", 1] == "not rendered yet"
     assert steps[-1].done == steps[-1].total == 6 and steps[-1].seconds_left == 0.0
     for rig in RIGS:
         for frame in FRAMES:
@@ -178,12 +178,12 @@ def check_a_picture_that_fails_does_not_stop_the_others(work):
 def check_bad_input_is_refused_before_anything_is_rendered(work):
     scene, obj = studio()
     folder = work / "bad"
-    raises("'Nowhere' is neither a lamp nor a collection", sb.render_batch, folder, 1, ["Nowhere"])
+    raises("'Nowhere' is neither a light nor a collection", sb.render_batch, folder, 1, ["Nowhere"])
     raises("'cold lamp', 'warm lamp'", sb.render_batch, folder, 1, ["Nowhere"])
     bpy.context.scene.collection.children.link(bpy.data.collections.new("Empty"))
-    raises("'Empty' holds no lamps", sb.render_batch, folder, 1, ["Empty"])
+    raises("'Empty' contains no lights", sb.render_batch, folder, 1, ["Empty"])
     raises("Two light rigs are named 'warm'", sb.render_batch, folder, 1, ["warm", "warm"])
-    raises("cannot be the name of a light rig", sb.render_batch, folder, 1, {"a/b": ["warm"]})
+    raises("is not allowed as the name of a light rig", sb.render_batch, folder, 1, {"a/b": ["warm"]})
     raises("no/such.json", sb.render_batch, folder, 1, ["no/such.json"])
     (work / "wrong.json").write_text('{"skinglow_rig": 1, "lights": [{"kind": "POINT", "watts": 3}]}')
     raises("watts", sb.render_batch, folder, 1, [work / "wrong.json"])
@@ -194,7 +194,7 @@ def check_bad_input_is_refused_before_anything_is_rendered(work):
     raises("No frames", sb.render_batch, folder, [], RIGS)
     raises("{rig} and {frame}", sb.render_batch, folder, "1-2", RIGS, pattern="{frame}")
     raises("'{nothing}'", sb.render_batch, folder, 1, RIGS, pattern="{nothing}")
-    raises("no file inside", sb.render_batch, folder, 1, RIGS, pattern="../{rig}{frame}")
+    raises("not a file inside", sb.render_batch, folder, 1, RIGS, pattern="../{rig}{frame}")
     assert not folder.exists()
     (work / "a_file").write_text("")
     raises("Cannot write to", sb.render_batch, work / "a_file" / "inside", 1, RIGS)
@@ -203,7 +203,7 @@ def check_bad_input_is_refused_before_anything_is_rendered(work):
     raises("'cold lamp' is not a skin", sb.render_batch, folder, 1, RIGS, onto=bpy.data.objects["cold lamp"])
     scene.render.image_settings.file_format = "FFMPEG" if bpy.app.version < (5, 0, 0) else "PNG"
     if bpy.app.version < (5, 0, 0):
-        raises("film", sb.render_batch, folder, 1, RIGS)
+        raises("movie", sb.render_batch, folder, 1, RIGS)
         scene.render.image_settings.file_format = "PNG"
     camera, scene.camera = scene.camera, None
     raises("no camera", sb.render_batch, folder, 1, RIGS)

@@ -1,5 +1,8 @@
 """The light rigs of a batch: what shines in their pictures, and that nothing is left of them."""
 
+import warnings
+from pathlib import Path
+
 import bpy
 import numpy as np
 import skinglow as sg
@@ -111,6 +114,25 @@ def check_lamps_by_name_and_hidden_ones(work):
     sb.render_batch(work / "as_it_is", 2)
     lights = [(color_at(rig, 2), 1.0) for rig in RIGS] + [blue]
     np.testing.assert_allclose(shown_in(work / "as_it_is/scene/0002.exr"), expected(*lights), rtol=1e-5)
+
+
+def check_former_name_of_a_rigs_lights(_work):
+    """`Rig.lamps` and the keyword still work, with a DeprecationWarning; nothing warns without them."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        old = sb.Rig("day", lamps=("Key",))
+        assert old.lamps == ("Key",)
+        assert [w.category for w in caught] == [DeprecationWarning] * 2
+        assert {Path(w.filename).name for w in caught} == {Path(__file__).name}
+        new = sb.Rig("day", ("Key",), None)
+        assert new == old == sb.Rig(name="day", lights=("Key",)) == sb.Rig("night", ("Key",))._replace(name="day")
+        assert len(caught) == 2
+    try:
+        sb.Rig("day", lamp=("Key",))
+    except TypeError as error:
+        assert "lamp" in str(error), error
+    else:
+        raise AssertionError("an unknown keyword was accepted")
 
 
 def check_collection_disabled_in_renders_is_a_rig(work):

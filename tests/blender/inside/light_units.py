@@ -50,7 +50,7 @@ def rendered_irradiance(work, scene):
 
 def core_irradiance(obj):
     evaluated = obj.evaluated_get(depsgraph())
-    read = scene_lights.read_lamp(evaluated, evaluated.matrix_world, obj.name)
+    read = scene_lights.read_light(evaluated, evaluated.matrix_world, obj.name)
     light = scene_lights.make_light(read)
     return sg.surface_irradiance([light], np.zeros((1, 3)), UP)[0]
 

@@ -24,7 +24,7 @@ def redraw(obj):
         scene=bpy.context.scene, view_layer=bpy.context.view_layer, window_manager=bpy.context.window_manager
     )
     light_list.list_of(obj, context)
-    filled = light_list.fill_wanted()
+    filled = light_list.fill_requested()
     return light_list.list_of(obj, context), filled
 
 
@@ -55,14 +55,14 @@ def check_redraws_compute_nothing(_work):
     try:
         redraw(obj)
         assert len(calls) == 1
-        looks = live_update.STATE.looks
+        looks = live_update.STATE.updates
         depsgraph()
         for _ in range(100):
             assert redraw(obj)[1] == 0
         assert len(calls) == 1
         # Filling a list is no edit: it would call for the next filling without end.
         depsgraph()
-        assert live_update.STATE.looks == looks
+        assert live_update.STATE.updates == looks
         bpy.data.objects["Key"].location.z = 2.0
         depsgraph()
         lights, filled = redraw(obj)

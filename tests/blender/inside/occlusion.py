@@ -52,7 +52,7 @@ def check_off_by_default_and_costs_nothing(_work):
     free = brightness(obj)
     wall()
     assert brightness(obj) == free > 0.0
-    assert not occlusion._kept
+    assert not occlusion._by_mode
     row = row_of(obj)
     assert (row["visible"], row["reason"], row["note"]) == (1.0, "", "")
 
@@ -97,7 +97,7 @@ def check_why_it_was_rebuilt(_work):
     between.location.x = 5.0
     (rebuilt,) = sb.update(depsgraph())
     handlers.register()
-    assert rebuilt.why == "light 'Key': visible share", rebuilt.why
+    assert rebuilt.why == "light 'Key': visible fraction", rebuilt.why
     assert sb.update(depsgraph()) == []
     assert obj.name == rebuilt.skin
 
@@ -108,13 +108,13 @@ def check_moving_a_lamp_only_traces(_work):
     switch()
     between = wall()
     assert brightness(obj) == 0.0
-    scene = occlusion._kept["VIEWPORT"].scene
+    scene = occlusion._by_mode["VIEWPORT"].scene
     key.location = (0.0, 1.0, 0.0)
     assert brightness(obj) > 0.0
-    assert occlusion._kept["VIEWPORT"].scene is scene
+    assert occlusion._by_mode["VIEWPORT"].scene is scene
     between.location.z = 0.6
     depsgraph()
-    assert occlusion._kept["VIEWPORT"].scene is not scene
+    assert occlusion._by_mode["VIEWPORT"].scene is not scene
 
 
 def check_half_covered_area_lamp_is_about_half(_work):
@@ -210,7 +210,7 @@ def check_renders_have_occluders_of_their_own(work):
     assert set(found) == {1, 2, 3}, found
     assert found[2] == 0.0 < found[1], found
     np.testing.assert_allclose([found[1], found[3]], free, rtol=1e-6)
-    assert "RENDER" not in occlusion._kept
+    assert "RENDER" not in occlusion._by_mode
     assert brightness(obj) == free
 
 
@@ -254,4 +254,4 @@ def occlusion_light(obj):
     from skinglow_blender import scene_lights
 
     evaluated = obj.evaluated_get(depsgraph())
-    return scene_lights.make_light(scene_lights.read_lamp(evaluated, evaluated.matrix_world, obj.name))
+    return scene_lights.make_light(scene_lights.read_light(evaluated, evaluated.matrix_world, obj.name))

@@ -112,5 +112,5 @@ def check_update_says_what_and_why(_work):
     key.location.x = 1.0
     lamp("Fill")
     (rebuilt,) = sb.update(depsgraph())
-    assert rebuilt.why == "light 'Fill' came; light 'Key': position", rebuilt.why
+    assert rebuilt.why == "light 'Fill' added; light 'Key': position", rebuilt.why
     assert sb.update(depsgraph()) == []

@@ -39,7 +39,7 @@ def core_lights():
     from skinglow_blender.scene_lights import make_light
     from skinglow_blender.scene_reading import read_scene
 
-    return [make_light(each) for each in read_scene(depsgraph()).lamps]
+    return [make_light(each) for each in read_scene(depsgraph()).lights]
 
 
 def expected(lights, angular=True):
@@ -101,7 +101,7 @@ def check_eevee_shows_the_same(work):
 
 
 def check_more_lamps_than_terms(work):
-    """Lamps beyond the terms shine as if from far away (docs/accuracy.md)."""
+    """Lights beyond the terms are treated as distant (docs/accuracy.md)."""
     skin()
     for i in range(12):
         angle = 2.0 * np.pi * i / 12
@@ -112,7 +112,7 @@ def check_more_lamps_than_terms(work):
     group = bpy.data.objects["Patch"].skinglow.group
     assert tuple(group["skinglow_layout"]) == (256, 8, 0, 1)
     notes = [row["note"] for row in sb.light_report(bpy.data.objects["Patch"], depsgraph())]
-    assert sum("far away" in note for note in notes) == 4, notes
+    assert sum("distant" in note for note in notes) == 4, notes
     return off
 
 

@@ -162,7 +162,7 @@ def check_select_light(_work):
     assert bpy.context.object == the_ball()
     assert bpy.ops.skinglow.reset() == {"FINISHED"}
     bpy.data.objects["Key"].hide_set(True)
-    refused("is hidden or cannot be selected", bpy.ops.skinglow.select_light, light="Key")
+    refused("is hidden or not selectable", bpy.ops.skinglow.select_light, light="Key")
     refused("'Nobody' is not in this view layer", bpy.ops.skinglow.select_light, light="Nobody")
 
 
@@ -177,18 +177,18 @@ def refused(text, operator, **arguments):
 
 def check_why_a_button_is_gray(_work):
     ops = bpy.ops.skinglow
-    refused("Select a mesh that is to glow", ops.make)
-    refused("There is no skin in this file yet", ops.update)
-    refused("There is no skin in this file yet", ops.export_povray, directory="//")
+    refused("Select a mesh to make glow", ops.make)
+    refused("This file has no skin yet", ops.update)
+    refused("This file has no skin yet", ops.export_povray, directory="//")
     ball()
     for operator in (ops.bake, ops.reset, ops.remove):
-        refused("Select a skin, or make one", operator)
+        refused("Select a skin, or create one", operator)
     ops.make()
     bpy.ops.object.mode_set(mode="EDIT")
     for operator in (ops.make, ops.bake, ops.reset, ops.remove):
-        refused("Leave the mode you are in", operator)
+        refused("Only available in Object Mode", operator)
     bpy.ops.object.mode_set(mode="OBJECT")
-    refused("No folder is given", ops.export_povray)
+    refused("No folder selected", ops.export_povray)
 
 
 def check_all_selected_or_none(_work):

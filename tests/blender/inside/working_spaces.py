@@ -114,6 +114,6 @@ def check_colors_beyond_rec709_are_told(work):
         assert sb.light_report(obj, depsgraph())[0]["note"] == ""
         bpy.data.lights["Key"].color = (1.0, 0.0, 0.0)
         row = sb.light_report(obj, depsgraph())[0]
-        assert "saturated" in row["note"], row
+        assert "gamut" in row["note"], row
         assert row["weight"][0] > 0.0 and row["weight"][1] == row["weight"][2] == 0.0, row
         assert sb.update(depsgraph()) == []

@@ -105,7 +105,7 @@ def check_dark_worlds(work):
         assert not seen(work, NORMALS[0]).any()
         read = scene_world.read_world(depsgraph())
         assert read.irradiance == (0.0, 0.0, 0.0)
-        return read.left_out or read.note
+        return read.unlit_reason or read.note
 
     layer.use_sky = False
     assert "view layer" in why()

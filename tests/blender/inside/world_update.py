@@ -193,7 +193,7 @@ def check_paper_and_existing_know_no_world(_work):
     np.testing.assert_array_equal(sb.lut(obj, depsgraph()), lit)
     world = sb.light_report(obj, depsgraph())[-1]
     assert world["kind"] == "WORLD" and not world["weight"].any() and world["share"] == 0.0
-    assert world["reason"] == "the paper's formula knows no world"
+    assert world["reason"] == "only Physical mode uses the world"
     bpy.data.objects.remove(key)
     np.testing.assert_allclose(sb.lut(obj, depsgraph()), gray()[:, None] * BLOOD, rtol=1e-6)
     obj.skinglow.mode = "EXISTING"
@@ -225,12 +225,12 @@ def check_what_is_not_followed_is_said(_work):
     sky = tree.nodes.new("ShaderNodeTexSky")
     tree.links.new(sky.outputs[0], light.inputs["Color"])
     row = sb.light_report(obj, depsgraph())[0]
-    assert "'Sky Texture' is not followed" in row["reason"] and not row["weight"].any(), row
+    assert "'Sky Texture' is not supported" in row["reason"] and not row["weight"].any(), row
 
     tree, _light, texture = image_world(image_of(np.ones((4, 8, 3))))
     node = mapped(tree, texture.inputs["Vector"], "POINT", (0.0, 0.0, 0.5), (1.0, 2.0, 1.0))
     row = sb.light_report(obj, depsgraph())[0]
-    assert "uneven Scale" in row["note"] and row["weight"].all(), row
+    assert "non-uniform Scale" in row["note"] and row["weight"].all(), row
     node.inputs["Scale"].default_value = (1.0, 1.0, 1.0)
     node.inputs["Location"].default_value = (0.0, 1.0, 0.0)
     assert "Location" in sb.light_report(obj, depsgraph())[0]["note"]

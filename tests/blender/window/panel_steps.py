@@ -112,12 +112,12 @@ def the_list():
     list_of, report = light_list.list_of, light_list.light_report
     light_list.list_of = lambda *given: drawn.append(1) or list_of(*given)
     light_list.light_report = lambda *given: computed.append(1) or report(*given)
-    looks = live_update.STATE.looks
+    looks = live_update.STATE.updates
     for _ in range(10):
         redraw()
         yield 0.2
     light_list.list_of, light_list.light_report = list_of, report
-    tell("redraws, computed, looks", [len(drawn), len(computed), live_update.STATE.looks - looks])
+    tell("redraws, computed, looks", [len(drawn), len(computed), live_update.STATE.updates - looks])
 
 
 def a_cancelled_measuring():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The lamps of a rig file as lamps of a scene, for a while."""
+"""Adds the lights of a rig file to a scene temporarily."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,65 +11,65 @@ from mathutils import Matrix, Vector
 from .. import blender_version
 from ..errors import SkinError, core
 
-#: On the lamps placed here, so that they are told from the scene's own.
-PLACED = "skinglow_rig"
+#: Custom property that marks the lights added here.
+ADDED = "skinglow_rig"
 
 
 @contextmanager
-def placed_lamps(
+def added_lights(
     scene: bpy.types.Scene,
     rig: Any,  # noqa: ANN401  a skinglow.LightRig
     onto: tuple[float, float, float] | None,
 ) -> Iterator[list[str]]:
-    """While it lasts, the rig's lamps are in the scene; gives notes on what Blender's lamps cannot do.
+    """Context manager that adds the rig's lights to the scene; yields notes on what Blender's lights do not support.
 
-    onto  where the rig's point comes to lie, world, scene units; None: lamps stand where the file says
-    Raises SkinError, naming the lamp, where a number of it lies outside what Blender allows.
+    onto  target of the rig's point, world, scene units; None: the lights are placed as in the file
+    Raises SkinError, naming the light, if one of its values is outside Blender's range.
     """
     offset = Vector() if onto is None else Vector(onto) - Vector(rig.point)
     notes = list(rig.notes)
-    placed: list[bpy.types.Object] = []
+    added: list[bpy.types.Object] = []
     try:
         for number, light in enumerate(rig.lights):
             if light.visible:
-                _place(scene, light, light.name or f"Lamp {number + 1}", offset, notes, placed)
+                _add(scene, light, light.name or f"Light {number + 1}", offset, notes, added)
         yield notes
     finally:
-        for obj in placed:
-            # The object goes with its lamp.
+        for obj in added:
+            # This also removes the object.
             bpy.data.lights.remove(obj.data)
 
 
-def _place(
+def _add(
     scene: bpy.types.Scene,
     light: Any,  # noqa: ANN401  a skinglow.Light
     name: str,
     offset: Vector,
     notes: list[str],
-    placed: list[bpy.types.Object],
+    added: list[bpy.types.Object],
 ) -> None:
     data = bpy.data.lights.new(name, light.kind)
     obj = bpy.data.objects.new(name, data)
-    placed.append(obj)
-    obj[PLACED] = True
+    added.append(obj)
+    obj[ADDED] = True
     for field, value in _fields(light).items():
         if not hasattr(data, field):
             if field == "use_soft_falloff" and not value:
-                notes.append(f"lamp '{name}': this Blender has soft falloff only")
+                notes.append(f"light '{name}': this Blender version only supports soft falloff")
             continue
         setattr(data, field, value)
         kept = getattr(data, field)
         if isinstance(value, float) and abs(kept - value) > 1e-5 * max(1.0, abs(value)):
-            raise SkinError(f"lamp '{name}': {field} = {value:g} is outside what Blender allows (it makes it {kept:g})")
+            raise SkinError(f"light '{name}': {field} = {value:g} is outside Blender's range (clamped to {kept:g})")
     if light.kind == "SPOT" and light.spot_cosine != blender_version.SPOT_HAS_COSINE:
-        has = "has" if blender_version.SPOT_HAS_COSINE else "lacks"
-        notes.append(f"lamp '{name}': a spot of this Blender {has} the cosine to its axis (spot_cosine)")
-    obj.matrix_world = Matrix.Translation(Vector(light.position) + offset) @ _turned(light).to_4x4()
+        has = "have" if blender_version.SPOT_HAS_COSINE else "lack"
+        notes.append(f"light '{name}': spots of this Blender version {has} the cosine falloff (spot_cosine)")
+    obj.matrix_world = Matrix.Translation(Vector(light.position) + offset) @ _rotation(light).to_4x4()
     scene.collection.objects.link(obj)
 
 
 def _fields(light: Any) -> dict[str, Any]:  # noqa: ANN401
-    """The properties of Blender's lamp that a skinglow.Light sets."""
+    """The properties of a Blender light for a skinglow.Light."""
     fields: dict[str, Any] = {"color": tuple(light.color), "energy": _energy(light)}
     if light.kind in ("POINT", "SPOT"):
         fields |= {"shadow_soft_size": light.radius, "use_soft_falloff": light.soft_falloff}
@@ -83,7 +83,7 @@ def _fields(light: Any) -> dict[str, Any]:  # noqa: ANN401
 
 
 def _energy(light: Any) -> float:  # noqa: ANN401
-    """The inverse of scene_lights: what to set, so that this Blender's lamp gives the light's power."""
+    """The inverse of scene_lights: Blender's energy for the light's power."""
     sg = core()
     if blender_version.LEGACY_LIGHT_POWER:
         if light.kind == "AREA":
@@ -93,15 +93,15 @@ def _energy(light: Any) -> float:  # noqa: ANN401
     return light.power
 
 
-def _turned(light: Any) -> Matrix:  # noqa: ANN401
-    """The rotation by which a lamp, which shines along its -Z, shines along the light's direction."""
-    back = -Vector(light.direction)
-    if light.kind == "POINT" or back.length == 0.0:
+def _rotation(light: Any) -> Matrix:  # noqa: ANN401
+    """The rotation that points a Blender light, which shines along its -Z axis, in the light's direction."""
+    z_axis = -Vector(light.direction)
+    if light.kind == "POINT" or z_axis.length == 0.0:
         return Matrix.Identity(3)
-    back.normalize()
-    across = Vector(light.tangent) if light.kind == "AREA" else Vector((1.0, 0.0, 0.0))
-    across -= across.dot(back) * back
-    if across.length < 1e-6:  # the tangent lies along the direction: any other will do
-        across = back.orthogonal()
-    across.normalize()
-    return Matrix((across, back.cross(across), back)).transposed()
+    z_axis.normalize()
+    x_axis = Vector(light.tangent) if light.kind == "AREA" else Vector((1.0, 0.0, 0.0))
+    x_axis -= x_axis.dot(z_axis) * z_axis
+    if x_axis.length < 1e-6:  # the tangent is parallel to the direction: use any other
+        x_axis = z_axis.orthogonal()
+    x_axis.normalize()
+    return Matrix((x_axis, z_axis.cross(x_axis), z_axis)).transposed()
