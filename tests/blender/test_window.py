@@ -98,7 +98,7 @@ def test_the_lookup_follows_a_moved_lamp(window: Window) -> None:
 
 def test_a_fault_stands_in_the_panel(window: Window) -> None:
     (fault,) = window["faults shown"]
-    assert "none is chosen" in fault
+    assert "no image is selected" in fault
 
 
 def test_the_pictures_show_something(window: Window) -> None:
