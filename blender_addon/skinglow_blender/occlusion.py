@@ -107,7 +107,7 @@ def _visible_shares(
         if far is not None and traced:
             own = [walk.own[key]] if key in walk.own else []
             lights = [make_light(lamps[i]) for i in traced]
-            found = kept.scene.visible_share(lights, far.points, far.normals, without=own).mean
+            found = kept.scene.visible_fraction(lights, far.points, far.normals, excluded=own).mean
             for i, share in zip(traced, found, strict=True):
                 row[i] = float(share)
         shares[key] = row
