@@ -1,12 +1,13 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <skinglow/povray.h>
 
 #include <string>
 #include <vector>
 
+#include "mesh_arrays.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
-#include "povray/povray_include.h"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -16,31 +17,6 @@ namespace {
 
 void require_shape(const py::array& array, std::string_view name, bool fits, std::string_view wanted) {
     if (!fits) refuse_argument(name, "of shape " + numpy::shape_text(array), wanted);
-}
-
-std::vector<glm::uvec3> to_triangles(py::handle value) {
-    // Through 64 bits, so that a negative index is refused and not wrapped.
-    using Integers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
-    const auto given = py::reinterpret_borrow<py::object>(value);
-    const py::array array = py::array::ensure(given);
-    if (!array || (array.dtype().kind() != 'i' && array.dtype().kind() != 'u')) {
-        PyErr_Clear();
-        refuse_argument("triangles", "not of whole numbers", "an integer array of shape (m, 3)");
-    }
-    require_shape(array, "triangles", array.ndim() == 2 && array.shape(1) == 3, "shape (m, 3)");
-    const Integers indices = Integers::ensure(array);
-    std::vector<glm::uvec3> triangles(static_cast<std::size_t>(indices.shape(0)));
-    const std::int64_t* index = indices.data();
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        for (int k = 0; k < 3; ++k, ++index) {
-            if (*index < 0 || *index > 0xFFFFFFFE) {
-                refuse_argument("triangles[" + std::to_string(i) + "]", std::to_string(*index),
-                                "vertex indices");
-            }
-            triangles[i][k] = static_cast<glm::uint>(*index);
-        }
-    }
-    return triangles;
 }
 
 std::vector<double> to_doubles(py::handle value, std::string_view name) {
@@ -123,7 +99,7 @@ LutAxis to_axis(py::handle base, py::handle size, py::handle max_thickness_mm) {
     return {static_cast<std::size_t>(entries), max_thickness_mm.cast<double>()};
 }
 
-std::map<std::string, std::string> povray_scene(
+std::map<std::string, std::string> povray_files_of_arrays(
     py::handle vertices, py::handle triangles, py::handle lut_u, py::handle camera_matrix,
     py::handle resolution, py::handle projection, py::handle angle_x, py::handle ortho_width,
     py::handle shift, std::string_view mode, py::handle base, py::handle size, py::handle max_thickness_mm,
@@ -132,8 +108,7 @@ std::map<std::string, std::string> povray_scene(
     std::string surface_image, py::handle surface_uv, py::handle background, std::string name) {
     PovrayScene scene;
     scene.mesh.name = std::move(name);
-    scene.mesh.positions = numpy::to_vec3s(vertices, "vertices");
-    scene.mesh.triangles = to_triangles(triangles);
+    scene.mesh.geometry = numpy::to_mesh(vertices, triangles);
     scene.mesh.lut_u = to_doubles(lut_u, "lut_u");
     set_normals(scene.mesh, normals);
     set_surface_uv(scene.mesh, surface_uv);
@@ -164,7 +139,7 @@ std::map<std::string, std::string> povray_scene(
 
 void bind_povray(py::module_& m) {
     m.def(
-        "povray_scene", &povray_scene, "vertices"_a, "triangles"_a, "lut_u"_a, py::kw_only(),
+        "povray_files", &povray_files_of_arrays, "vertices"_a, "triangles"_a, "lut_u"_a, py::kw_only(),
         "camera_matrix"_a, "resolution"_a, "projection"_a = py::none(), "angle_x"_a = py::none(),
         "ortho_width"_a = py::none(), "shift"_a = py::make_tuple(0.0, 0.0), "mode"_a = "paper",
         "base"_a = py::none(), "size"_a = py::none(), "max_thickness_mm"_a = py::none(), "image"_a = "",
@@ -183,7 +158,7 @@ camera_matrix        (4, 4) camera to world (it looks along -z); scale is ignore
 resolution           (width, height), pixels
 projection | angle_x | ortho_width   one of: (4, 4) as camera.calc_matrix_camera(depsgraph, x=width, y=height) gives
                      it; full angle of the width, radians; width in scene units (the latter two: square pixels, and
-                     shift in shares of the longer side)
+                     shift as a fraction of the longer side)
 mode                 "existing", "paper" or "physical"
 base | size, max_thickness_mm   the table's axis; mode "paper" by macros needs base, a gray BaseLut
 image                name of the lookup's EXR in the folder (POV-Ray reads it as half floats); "": the macros compute

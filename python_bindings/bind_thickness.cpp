@@ -1,12 +1,12 @@
 #include <pybind11/pybind11.h>
+#include <skinglow/thickness.h>
 
 #include <utility>
 #include <vector>
 
 #include "bind_rays.h"
+#include "mesh_arrays.h"
 #include "numpy_conversion.h"
-#include "rays/thickness.h"
-#include "triangle_arrays.h"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -28,15 +28,14 @@ ThicknessProgress ask_python(const py::object& progress) {
 }
 
 py::array thickness_of_arrays(py::handle vertices, py::handle triangles, double unit_mm, int rays,
-                              double cone_half_angle, double min_openness, int threads,
+                              double cone_half_angle, double min_sky_visibility, int threads,
                               const py::object& progress) {
-    const std::vector<glm::dvec3> points = numpy::to_vec3s(vertices, "vertices");
-    const std::vector<glm::uvec3> corners = numpy::to_triangles(triangles, "triangles", points.size());
-    const ThicknessOptions options{unit_mm, rays, cone_half_angle, min_openness, threads};
+    const TriangleMesh mesh = numpy::to_mesh(vertices, triangles);
+    const ThicknessOptions options{unit_mm, rays, cone_half_angle, min_sky_visibility, threads};
     std::vector<double> values;
     {
         const py::gil_scoped_release unlocked;
-        values = thickness(points, corners, options, ask_python(progress));
+        values = thickness(mesh, options, ask_python(progress));
     }
     return numpy::from_doubles(std::move(values));
 }
@@ -50,7 +49,7 @@ void bind_thickness(py::module_& m) {
     m.attr("DEFAULT_RAYS") = ThicknessOptions{}.rays;
     m.attr("DEFAULT_CONE_HALF_ANGLE") = ThicknessOptions{}.cone_half_angle;
     m.def("thickness", &thickness_of_arrays, "vertices"_a, "triangles"_a, "unit_mm"_a, "rays"_a,
-          "cone_half_angle"_a, "min_openness"_a, "threads"_a, "progress"_a, "See skinglow.thickness.");
+          "cone_half_angle"_a, "min_sky_visibility"_a, "threads"_a, "progress"_a, "See skinglow.thickness.");
 }
 
 }  // namespace skinglow

@@ -113,7 +113,7 @@ def _visible_fractions(
         if far is not None and traced:
             own = [found.own[key]] if key in found.own else []
             core_lights = [make_light(lights[i]) for i in traced]
-            visible = occluders.scene.visible_share(core_lights, far.points, far.normals, without=own).mean
+            visible = occluders.scene.visible_fraction(core_lights, far.points, far.normals, excluded=own).mean
             for i, fraction in zip(traced, visible, strict=True):
                 row[i] = float(fraction)
         fractions[key] = row

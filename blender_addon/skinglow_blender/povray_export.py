@@ -79,7 +79,7 @@ def _export_skin(
     if not compute_lut:
         written.append(_write_lut(compute_table(skin, reading.lights, reading.world).colors, folder / LUT_FILE))
         arguments["image"] = LUT_FILE
-    files = core().povray_scene(
+    files = core().povray_files(
         mode=skin.mode.lower(),
         base=base if skin.mode == "PAPER" else None,
         size=base.size,

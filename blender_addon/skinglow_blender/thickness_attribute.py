@@ -105,7 +105,7 @@ def measure(geometry: Geometry, progress: Callable[[float], bool] | None = None)
         geometry.triangles,
         unit_mm=geometry.unit_mm,
         rays=geometry.rays,
-        min_openness=geometry.min_openness,
+        min_sky_visibility=geometry.min_openness,
         progress=progress,
     )
 

@@ -47,7 +47,7 @@ from skinglow._core import (
     merge_identical,
     normal_cone,
     object_irradiance_error,
-    povray_scene,
+    povray_files,
     read_light_rig,
     recolor,
     reference_lut,
@@ -64,7 +64,7 @@ from skinglow._core import (
     transmittance,
     unnormalized_power_factor,
 )
-from skinglow._occlusion import Occluders, VisibleShare
+from skinglow._occlusion import Occluders, VisibleFraction
 from skinglow._renamed import __getattr__
 from skinglow._thickness import thickness
 
@@ -136,9 +136,9 @@ __all__ = [
     # The light at each place of a surface, for materials
     "SurfaceLighting",
     # POV-Ray
-    "povray_scene",
+    "povray_files",
     # Meshes
     "Occluders",
-    "VisibleShare",
+    "VisibleFraction",
     "thickness",
 ]

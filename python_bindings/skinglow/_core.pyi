@@ -437,7 +437,7 @@ def read_light_rig(path: str | PathLike[str], camera_rotation: ArrayLike | None 
 
 # POV-Ray (bind_povray.cpp)
 
-def povray_scene(
+def povray_files(
     vertices: ArrayLike,
     triangles: ArrayLike,
     lut_u: ArrayLike,

@@ -1,36 +1,38 @@
-"""What stands between lamps and a skin. Embree is loaded by the first Occluders and not before."""
+"""What stands between lights and a skin. Embree is loaded by the first Occluders and not before."""
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from skinglow._core import Light
 from skinglow._rays_loader import load_rays
+from skinglow._renamed import renamed_keywords
 
-__all__ = ["Occluders", "VisibleShare"]
+__all__ = ["Occluders", "VisibleFraction"]
 
 
-class VisibleShare(NamedTuple):
-    """How much of each lamp's light arrives, 0 to 1."""
+class VisibleFraction(NamedTuple):
+    """Fraction of each light that arrives, 0 to 1."""
 
     mean: NDArray[np.float64]
-    """(n_lights,): over the points, each counted by what the lamp would bring there; the factor on its part of the
-    weight of a whole object. 1 where it brings nothing to any point."""
+    """(n_lights,): over the points, each weighted by the irradiance of the unoccluded light there; the factor on its
+    part of the weight of a whole object. 1 where the light contributes nothing at any point."""
     at_points: NDArray[np.float64]
-    """(n_points, n_lights); 1 where the lamp brings nothing anyway (below the horizon, outside the cone, off)."""
+    """(n_points, n_lights); 1 where the light contributes nothing anyway (below the horizon, outside the cone, off)."""
 
 
 class Occluders:
-    """Meshes that may stand between lamps and a skin, made ready for rays once.
+    """Meshes that may stand between lights and a skin, prepared for rays once.
 
     meshes  pairs (vertices, triangles): (n, 3) finite, world, scene unit; (m, 3) whole numbers from 0 to below n. Both
             sides stop light, whatever the winding; triangles without area stop nothing. None: nothing is in the way
     origin  (3,), near the points that will ask: what is seen from there is seen to about 1e-7 of its distance, however
-            large the scene (single precision). None: the middle of all meshes
+            large the scene (single precision). None: the center of all meshes
 
     len(...) is the number of meshes. Raises ValueError naming the mesh and its entry.
     """
@@ -47,27 +49,33 @@ class Occluders:
         """Triangles with area, of all meshes."""
         return self._scene.triangles
 
-    def visible_share(
+    @renamed_keywords(without="excluded")
+    def visible_fraction(
         self,
         lights: Sequence[Light],
         points: ArrayLike,
         normals: ArrayLike,
         *,
         samples: int | None = None,
-        without: Sequence[int] = (),
+        excluded: Sequence[int] = (),
         threads: int = 0,
-    ) -> VisibleShare:
-        """How much of each lamp's light arrives at points that face along normals: (mean, at_points).
+    ) -> VisibleFraction:
+        """Fraction of each light that is visible from points that face along normals: (mean, at_points).
 
-        For skin the points are those of its far side: `skinglow.far_side`. Rays go to points that cover the lamp
-        (disk, ball, rectangle, ellipse, the sun's disk), each counted by what it would bring there; those of a lamp
-        without extent, one. Surfaces that the point or the lamp lies on do not count.
+        For skin the points are those of its far side: `skinglow.far_side`. Rays go to points that cover the light
+        (disk, ball, rectangle, ellipse, the sun's disk), each weighted by the irradiance it contributes; one ray goes
+        to a light without extent. Surfaces that the point or the light lies on do not count.
 
         points, normals  (n, 3), finite, world, scene unit; normals of any length, (0, 0, 0) receives nothing
-        samples          rays from a point to a lamp with an extent, 1 to 4096; None: 16 (error: docs/accuracy.md)
-        without          indices of meshes that do not count: the skin's own
+        samples          rays from a point to a light with an extent, 1 to 4096; None: 16 (error: docs/accuracy.md)
+        excluded         indices of meshes that do not count: the skin's own
         threads          0: one for each processor; the result does not depend on it
         Raises ValueError naming the entry.
         """
         count = self._rays.DEFAULT_SAMPLES if samples is None else samples
-        return VisibleShare(*self._scene.visible_share(lights, points, normals, count, list(without), threads))
+        return VisibleFraction(*self._scene.visible_fraction(lights, points, normals, count, list(excluded), threads))
+
+    def visible_share(self, *arguments: Any, **keywords: Any) -> VisibleFraction:
+        """The former name of visible_fraction."""
+        warnings.warn("Occluders.visible_share is now visible_fraction", DeprecationWarning, stacklevel=2)
+        return self.visible_fraction(*arguments, **keywords)

@@ -22,7 +22,7 @@ def thickness(
     unit_mm: float,
     rays: int,
     cone_half_angle: float,
-    min_openness: float,
+    min_sky_visibility: float,
     threads: int,
     progress: Callable[[float], bool] | None,
 ) -> NDArray[np.float64]: ...
@@ -32,12 +32,12 @@ class Occluders:
     def __len__(self) -> int: ...
     @property
     def triangles(self) -> int: ...
-    def visible_share(
+    def visible_fraction(
         self,
         lights: Sequence[Light],
         points: ArrayLike,
         normals: ArrayLike,
         samples: int,
-        without: Sequence[int],
+        excluded: Sequence[int],
         threads: int,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...

@@ -1,9 +1,14 @@
 """Names of earlier versions, which go on working with a DeprecationWarning."""
 
+import functools
 import warnings
+from collections.abc import Callable
+from typing import Any
 
 RENAMED = {
+    "VisibleShare": "VisibleFraction",
     "black_body_colour": "black_body_color",
+    "povray_scene": "povray_files",
     "recolour": "recolor",
     "spectral_colour": "spectral_color",
     "unnormalised_power_factor": "unnormalized_power_factor",
@@ -18,3 +23,22 @@ def __getattr__(name: str) -> object:
         raise AttributeError(f"module 'skinglow' has no attribute {name!r}")
     warnings.warn(f"skinglow.{name} is now skinglow.{RENAMED[name]}", DeprecationWarning, stacklevel=2)
     return getattr(skinglow, RENAMED[name])
+
+
+def renamed_keywords(**new_names: str) -> Callable[[Callable[..., Any]], Any]:
+    """A decorator by which a function also takes keywords by their former names: `@renamed_keywords(old="new")`."""
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        @functools.wraps(function)
+        def call(*arguments: Any, **keywords: Any) -> Any:
+            for old in new_names.keys() & keywords.keys():
+                new = new_names[old]
+                if new in keywords:
+                    raise TypeError(f"{function.__name__}() got both {new!r} and its former name {old!r}")
+                warnings.warn(f"{function.__name__}: {old} is now {new}", DeprecationWarning, stacklevel=2)
+                keywords[new] = keywords.pop(old)
+            return function(*arguments, **keywords)
+
+        return call
+
+    return decorate

@@ -8,10 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from skinglow._rays_loader import load_rays
+from skinglow._renamed import renamed_keywords
 
 __all__ = ["thickness"]
 
 
+@renamed_keywords(min_openness="min_sky_visibility")
 def thickness(
     vertices: ArrayLike,
     triangles: ArrayLike,
@@ -19,28 +21,28 @@ def thickness(
     rays: int | None = None,
     *,
     cone_half_angle: float | None = None,
-    min_openness: float = 0.0,
+    min_sky_visibility: float = 0.0,
     threads: int = 0,
     progress: Callable[[float], bool] | None = None,
 ) -> NDArray[np.float64]:
     """How thick a body is at each vertex, (n,) float64, mm.
 
-    The diameter of the ball that lies against the surface at the vertex from within and against the
-    far side, by a cone of inward rays: a slab's thickness, a sphere's diameter, a shell's wall. A
-    quarter of the rays may be misled by a crease. The same on any number of threads.
+    The diameter of the ball that touches the surface at the vertex from within, and the far side, by a cone of
+    inward rays: a slab's thickness, a sphere's diameter, a shell's wall. A quarter of the rays may be misled by a
+    crease. The same on any number of threads.
 
-    vertices         (n, 3), finite, in units of unit_mm
-    triangles        (m, 3), whole numbers from 0 to below n, counter-clockwise from outside; a mesh
-                     that encloses a negative volume is turned over. At least one, unless n is 0.
-    unit_mm          length of one unit of the vertices, mm, above 0
-    rays             per vertex, 1 to 65536; None: the measured default (docs/accuracy.md)
-    cone_half_angle  between axis and rim, radians, 0 to 1.5; None: pi/4
-    min_openness     smallest share of an even sky's light, 0 to 1, that a far side must get for a ray to
-                     end there; what gets less (mouth, eye sockets) is dark, and passed as if it were
-                     flesh. 0: every way out counts, also into a closed cavity
-    threads          0: one for each processor
-    progress         called on this thread with the share done, ascending to 1; returns whether to go
-                     on. If not, RuntimeError (skinglow._rays.ThicknessCancelled) is raised.
+    vertices            (n, 3), finite, in units of unit_mm
+    triangles           (m, 3), whole numbers from 0 to below n, counter-clockwise from outside; a mesh that encloses
+                        a negative volume is flipped. At least one, unless n is 0
+    unit_mm             length of one unit of the vertices, mm, above 0
+    rays                per vertex, 1 to 65536; None: the measured default (docs/accuracy.md)
+    cone_half_angle     between axis and rim, radians, 0 to 1.5; None: pi/4
+    min_sky_visibility  smallest fraction of a uniform sky's light, 0 to 1, that a far side must receive for a ray to
+                        end there; what receives less (mouth, eye sockets) is dark, and passed as if it were flesh.
+                        0: every way out counts, also into a closed cavity
+    threads             0: one for each processor
+    progress            called on this thread with the fraction done, ascending to 1; returns whether to go on. If
+                        not, RuntimeError (skinglow._rays.ThicknessCancelled) is raised
 
     Vertices at one position get one value; triangles without area are ignored. Where no ray finds a
     way out (a plane, an open hem, a vertex without triangles) the value is the bounding box's
@@ -54,7 +56,7 @@ def thickness(
         unit_mm,
         module.DEFAULT_RAYS if rays is None else rays,
         module.DEFAULT_CONE_HALF_ANGLE if cone_half_angle is None else cone_half_angle,
-        min_openness,
+        min_sky_visibility,
         threads,
         progress,
     )

@@ -49,7 +49,7 @@ class _Skin:
     thickness: np.ndarray
 
     def measured(self, min_openness: float) -> np.ndarray:
-        return sg.thickness(self.places, self.triangles, unit_mm=shading.MM_PER_METER, min_openness=min_openness)
+        return sg.thickness(self.places, self.triangles, unit_mm=shading.MM_PER_METER, min_sky_visibility=min_openness)
 
     def far_side(self, lamp: sg.Light, thickness: np.ndarray) -> np.ndarray:
         return sg.far_side_irradiance([lamp], self.places, self.normals, thickness / shading.MM_PER_METER)

@@ -56,7 +56,7 @@ def speed():
         building, scene = best_of(lambda mesh=(vertices, triangles): sg.Occluders([mesh]))
         light = sg.Light(position=lamp)
         ours, found = best_of(
-            lambda s=scene, p=points, m=light: s.visible_share([m], p, lamp - p, threads=1).at_points[:, 0]
+            lambda s=scene, p=points, m=light: s.visible_fraction([m], p, lamp - p, threads=1).at_points[:, 0]
         )
         few = max(20, 2_000_000 // len(triangles) // 4)
         theirs, hits = best_of(
@@ -92,14 +92,14 @@ def error():
     for name, settings in lamps.items():
         light = [sg.Light(**settings)]
         exact = {
-            id(p): np.array([w.visible_share(light, *p, samples=4096).mean[0] for w in walls]) for p in (place, skin)
+            id(p): np.array([w.visible_fraction(light, *p, samples=4096).mean[0] for w in walls]) for p in (place, skin)
         }
         for samples in (1, 4, 16, 64, 256):
             row = [name, str(samples)]
             for p in (place, skin):
-                found = np.array([w.visible_share(light, *p, samples=samples).mean[0] for w in walls])
+                found = np.array([w.visible_fraction(light, *p, samples=samples).mean[0] for w in walls])
                 row.append(f"{np.sqrt(np.mean((found - exact[id(p)]) ** 2)):.2g}")
-            took, _ = best_of(lambda m=light, n=samples: walls[0].visible_share(m, *skin, samples=n, threads=1))
+            took, _ = best_of(lambda m=light, n=samples: walls[0].visible_fraction(m, *skin, samples=n, threads=1))
             print("| " + " | ".join([*row, f"{1e3 * took:.2g}"]) + " |")
 
 

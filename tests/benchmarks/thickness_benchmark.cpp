@@ -1,19 +1,16 @@
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <limits>
-#include <optional>
+#include <skinglow/thickness.h>
+
+#include <vector>
 
 #include "../core/mesh_shapes.h"
+#include "bare_embree.h"
 #include "geometry/vector.h"
 #include "geometry/welded_mesh.h"
-#include "rays/cone_sampling.h"
-#include "rays/thickness.h"
+#include "rays/direction_sampling.h"
 
-/// What a thickness costs, against the least one could do (a single ray along the axis, by the same Embree)
-/// and against the same rays without an acceleration structure. The shell is about as fine as a head (13,000
+/// What a thickness costs, against the same rays by Embree alone. The shell is about as fine as a head (13,000
 /// vertices).
 namespace {
 
@@ -28,13 +25,15 @@ const Mesh& head_sized() {
     return mesh;
 }
 
+void count_vertices(benchmark::State& state, std::size_t count) {
+    state.counters["vertices"] = static_cast<double>(count);
+    state.counters["vertices/s"] =
+        benchmark::Counter(static_cast<double>(count), benchmark::Counter::kIsIterationInvariantRate);
+}
+
 void run(benchmark::State& state, const Mesh& mesh, const skinglow::ThicknessOptions& options) {
-    for (auto _ : state) {
-        benchmark::DoNotOptimize(skinglow::thickness(mesh.vertices, mesh.triangles, options));
-    }
-    state.counters["vertices"] = static_cast<double>(mesh.vertices.size());
-    state.counters["vertices/s"] = benchmark::Counter(static_cast<double>(mesh.vertices.size()),
-                                                      benchmark::Counter::kIsIterationInvariantRate);
+    for (auto _ : state) benchmark::DoNotOptimize(skinglow::thickness(mesh.view(), options));
+    count_vertices(state, mesh.vertices.size());
 }
 
 void head_sized_rays(benchmark::State& state) {
@@ -56,54 +55,34 @@ BENCHMARK(head_sized_all_threads)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-void head_sized_openness(benchmark::State& state) {
-    run(state, head_sized(), {.min_openness = 0.1, .threads = 1});
+void head_sized_sky(benchmark::State& state) {
+    run(state, head_sized(), {.min_sky_visibility = 0.1, .threads = 1});
 }
-BENCHMARK(head_sized_openness)->Name("head_sized/default_rays_min_openness")->Unit(benchmark::kMillisecond);
+BENCHMARK(head_sized_sky)->Name("head_sized/default_rays_min_sky_visibility")->Unit(benchmark::kMillisecond);
 
-void small_embree(benchmark::State& state) {
-    run(state, skinglow::shapes::sphere(1.0, 3), {.rays = 64, .threads = 1});
-}
-BENCHMARK(small_embree)->Name("small/embree_64_rays")->Unit(benchmark::kMillisecond);
-
-/// Distance along a ray to a triangle's plane, if it meets the triangle (each edge seen from the same side).
-std::optional<double> meet(const skinglow::WeldedMesh& mesh, const skinglow::WeldedTriangle& t,
-                           const glm::dvec3& origin, const glm::dvec3& direction) {
-    const double along = glm::dot(direction, t.unit_normal);
-    if (along <= 0) return std::nullopt;
-    const double distance = (t.plane - glm::dot(t.unit_normal, origin)) / along;
-    if (distance <= 1e-6) return std::nullopt;
-    const glm::dvec3 q = origin + distance * direction;
-    for (int k = 0; k < 3; ++k) {
-        const glm::dvec3& a = mesh.positions()[t.corners[k]];
-        const glm::dvec3& b = mesh.positions()[t.corners[(k + 1) % 3]];
-        if (glm::dot(glm::cross(b - a, q - a), t.unit_normal) < 0) return std::nullopt;
-    }
-    return distance;
-}
-
-void small_brute_force(benchmark::State& state) {
-    const Mesh mesh = skinglow::shapes::sphere(1.0, 3);
+/// The same rays from the same vertices by rtcIntersect1 alone, nearest hit only.
+void head_sized_bare_embree(benchmark::State& state) {
+    const skinglow::detail::WeldedMesh mesh(head_sized().view());
+    std::vector<glm::uvec3> corners;
+    for (const auto& t : mesh.triangles()) corners.push_back(t.corners);
+    const skinglow::benchmarks::BareEmbree scene(mesh.positions(), corners);
+    const auto directions = skinglow::detail::cone_directions(
+        static_cast<int>(state.range(0)), skinglow::ThicknessOptions{}.cone_half_angle);
     for (auto _ : state) {
-        const skinglow::WeldedMesh welded(mesh.vertices, mesh.triangles);
-        const auto directions = skinglow::cone_directions(64, skinglow::ThicknessOptions{}.cone_half_angle);
-        for (std::uint32_t i = 0; i < welded.positions().size(); ++i) {
-            const glm::dmat3 frame = skinglow::detail::frame_around(-welded.vertex_normal(i));
-            for (const glm::dvec3& local : directions) {
-                double nearest = std::numeric_limits<double>::infinity();
-                const glm::dvec3 direction = frame * local;
-                for (const auto& t : welded.triangles()) {
-                    nearest = std::min(nearest,
-                                       meet(welded, t, welded.positions()[i], direction).value_or(nearest));
-                }
-                benchmark::DoNotOptimize(nearest);
-            }
+        for (std::uint32_t i = 0; i < mesh.positions().size(); ++i) {
+            const glm::dmat3 frame = skinglow::detail::frame_around(-mesh.vertex_normal(i));
+            for (const glm::dvec3& local : directions)
+                benchmark::DoNotOptimize(scene.nearest(mesh.positions()[i], frame * local));
         }
     }
-    state.counters["vertices"] = static_cast<double>(mesh.vertices.size());
-    state.counters["vertices/s"] = benchmark::Counter(static_cast<double>(mesh.vertices.size()),
-                                                      benchmark::Counter::kIsIterationInvariantRate);
+    count_vertices(state, mesh.positions().size());
 }
-BENCHMARK(small_brute_force)->Name("small/brute_force_64_rays")->Unit(benchmark::kMillisecond);
+BENCHMARK(head_sized_bare_embree)
+    ->Name("head_sized/bare_rtcIntersect1/rays")
+    ->Arg(1)
+    ->Arg(16)
+    ->Arg(64)
+    ->Arg(128)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -146,8 +146,8 @@ def refusals(sg):
         "raised by progress": refusal(lambda: sg.thickness(*triangle, progress=lambda done: 1 / 0)),
         "cancelled": refusal(lambda: sg.thickness(*triangle, progress=lambda done: False)),
         "mesh": refusal(lambda: sg.Occluders([triangle, 5])),
-        "samples": refusal(lambda: occluders.visible_share(*point, samples=0)),
-        "no light": refusal(lambda: occluders.visible_share([5], *point[1:])),
+        "samples": refusal(lambda: occluders.visible_fraction(*point, samples=0)),
+        "no light": refusal(lambda: occluders.visible_fraction([5], *point[1:])),
     }
 
 

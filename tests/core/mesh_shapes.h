@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <map>
+#include <skinglow/mesh.h>
 #include <utility>
 #include <vector>
 
@@ -16,12 +17,14 @@ struct Mesh {
     std::vector<glm::dvec3> vertices;
     std::vector<glm::uvec3> triangles;
 
+    MeshView view() const { return {vertices, triangles}; }
+
     void append(const Mesh& other) {
         const auto first = static_cast<std::uint32_t>(vertices.size());
         vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
         for (const glm::uvec3& t : other.triangles) triangles.push_back(t + first);
     }
-    void turn_over() {
+    void flip() {
         for (glm::uvec3& t : triangles) std::swap(t.y, t.z);
     }
 };
@@ -56,7 +59,7 @@ inline Mesh sphere(double radius, int levels) {
 inline Mesh shell(double outer_radius, double wall, int levels) {
     Mesh mesh = sphere(outer_radius, levels);
     Mesh inner = sphere(outer_radius - wall, levels);
-    inner.turn_over();
+    inner.flip();
     mesh.append(inner);
     return mesh;
 }
@@ -81,7 +84,7 @@ inline Mesh box(const glm::dvec3& size, std::uint32_t cells) {
                     face.triangles.insert(face.triangles.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
                 }
             }
-            if (!far_side) face.turn_over();
+            if (!far_side) face.flip();
             mesh.append(face);
         }
     }

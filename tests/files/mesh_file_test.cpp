@@ -76,13 +76,13 @@ std::string cube_ply_binary(bool big_endian) {
 
 /// A cube is closed: each directed edge of its triangles meets its opposite.
 void expect_unit_cube(const TriangleMesh& mesh) {
-    ASSERT_EQ(mesh.vertices.size(), 8U) << "one vertex for each position";
-    ASSERT_EQ(mesh.triangles.size(), 12U);
+    ASSERT_EQ(mesh.vertices().size(), 8U) << "one vertex for each position";
+    ASSERT_EQ(mesh.triangles().size(), 12U);
     double volume = 0.0;
-    for (const glm::uvec3& t : mesh.triangles) {
-        const glm::dvec3 a = mesh.vertices[t.x];
-        const glm::dvec3 b = mesh.vertices[t.y];
-        const glm::dvec3 c = mesh.vertices[t.z];
+    for (const glm::uvec3& t : mesh.triangles()) {
+        const glm::dvec3 a = mesh.vertices()[t.x];
+        const glm::dvec3 b = mesh.vertices()[t.y];
+        const glm::dvec3 c = mesh.vertices()[t.z];
         volume +=
             (a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x)) /
             6.0;
@@ -94,7 +94,7 @@ TEST(MeshFile, ObjVerticesAreJoinedAndGroupsChosen) {
     const ScratchFolder folder;
     const auto path = folder.write("cube.obj", cube_obj());
     expect_unit_cube(read_mesh(path, "box"));
-    EXPECT_EQ(read_mesh(path).triangles.size(), 13U);
+    EXPECT_EQ(read_mesh(path).triangles().size(), 13U);
     expect_refused<FileError>([&] { read_mesh(path, "nose"); },
                               {"cube.obj", "no group \"nose\"", "box", "extra"});
 }

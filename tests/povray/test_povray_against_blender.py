@@ -36,7 +36,7 @@ def both(tmp_path: Path, host: Host, **job) -> tuple[np.ndarray, np.ndarray]:
     job = dict(table=sg.recolor(BASE, weight).tolist(), **job)
     by_blender = blender(host, tmp_path, job)
     with np.load(tmp_path / "scene.npz") as scene:
-        files = sg.povray_scene(
+        files = sg.povray_files(
             scene["vertices"], scene["triangles"], scene["lut_u"], base=BASE, lights=LAMPS,
             camera_matrix=scene["camera_matrix"], projection=scene["projection"],
             resolution=job["resolution"],

@@ -16,7 +16,7 @@ def radiance(folder, *lights) -> np.ndarray:
     camera = np.eye(4)
     camera[2, 3] = 50
     corners = np.array([(-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0)], float)
-    files = sg.povray_scene(
+    files = sg.povray_files(
         corners, np.array([(0, 1, 2), (0, 2, 3)]), np.full(4, 0.5), camera_matrix=camera,
         resolution=(PIXELS, 1), ortho_width=WIDTH, base=sg.BaseLut([0.0], 1), strength=0,
         surface_color=(1, 1, 1), lights=list(lights),

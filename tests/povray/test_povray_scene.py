@@ -26,7 +26,7 @@ def square(lut_u=(0, 1, 1, 0), **changes) -> dict[str, str]:
     settings |= changes
     if "size" in settings:
         del settings["base"]
-    return sg.povray_scene(SQUARE, TRIANGLES, np.array(lut_u, float), **settings)
+    return sg.povray_files(SQUARE, TRIANGLES, np.array(lut_u, float), **settings)
 
 
 def picture(folder, files, *arguments) -> np.ndarray:
@@ -121,14 +121,14 @@ def test_unused_vertices_are_left_out():
     triangles = np.array([(0, 1, 3), (0, 3, 4)])
     u = np.array([0, 1, 0.5, 1, 0, 0.5])
     same = dict(camera_matrix=FROM_ABOVE, resolution=(64, 4), ortho_width=2, base=BASE, lights=LAMPS)
-    assert sg.povray_scene(vertices, triangles, u, **same) == square()
+    assert sg.povray_files(vertices, triangles, u, **same) == square()
 
 
 def test_numbers_come_back_as_the_same_doubles():
     random = np.random.default_rng(3)
     vertices = random.normal(size=(50, 3)) * 10.0 ** random.integers(-12, 12, (50, 1))
     triangles = np.arange(48).reshape(-1, 3)
-    text = sg.povray_scene(
+    text = sg.povray_files(
         vertices, triangles, np.full(50, 0.5), camera_matrix=FROM_ABOVE, resolution=(8, 8),
         ortho_width=1, base=BASE,
     )["mesh.inc"]  # fmt: skip
@@ -244,4 +244,4 @@ def test_refusals(changes, message):
 def test_triangles_that_are_none(triangles):
     same = dict(camera_matrix=FROM_ABOVE, resolution=(4, 4), ortho_width=2, base=BASE)
     with pytest.raises(ValueError, match="triangles|mesh"):
-        sg.povray_scene(SQUARE, np.array(triangles), np.zeros(4), **same)
+        sg.povray_files(SQUARE, np.array(triangles), np.zeros(4), **same)

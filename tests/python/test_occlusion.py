@@ -1,4 +1,4 @@
-"""skinglow.Occluders: closed forms, meshes left out, extremes, refusals. More: tests/core/rays/visibility_test.cpp."""
+"""skinglow.Occluders: closed forms, meshes left out, extremes, refusals. More: tests/rays/visibility_test.cpp."""
 
 import os
 import subprocess
@@ -32,7 +32,7 @@ def ball(radius=1.0, middle=(0.0, 0.0, 0.0), rings=24):
 
 
 def seen(occluders, light, points=ORIGIN, normals=UP, **options):
-    return occluders.visible_share([light], points, normals, **options).mean[0]
+    return occluders.visible_fraction([light], points, normals, **options).mean[0]
 
 
 def test_half_plane_leaves_half_of_a_disk():
@@ -60,9 +60,9 @@ def test_own_mesh_is_left_out():
     np.testing.assert_allclose(normals, [[0, 0, -1]])
     below, above = sg.Light(position=(0, 0, -4)), sg.Light(position=(0, 0, 4))
     assert seen(scene, below, points, normals) == 0
-    assert seen(scene, below, points, normals, without=[0]) == 1
-    assert seen(scene, above, points, -normals, without=[0]) == 0
-    assert seen(scene, above, points, -normals, without=[0, 1]) == 1
+    assert seen(scene, below, points, normals, excluded=[0]) == 1
+    assert seen(scene, above, points, -normals, excluded=[0]) == 0
+    assert seen(scene, above, points, -normals, excluded=[0, 1]) == 1
 
 
 def test_far_side_is_where_its_irradiance_is_taken():
@@ -82,7 +82,7 @@ def test_far_side_is_where_its_irradiance_is_taken():
 def test_mean_counts_points_by_what_the_lamp_would_bring():
     lamp = sg.Light(position=(0, 0, 2))
     points, normals = np.array([[0, 0, 0], [3, 0, 0], [0, 0, 0]], float), np.array([[0, 0, 1], [-1, 0, 1], [0, 0, -1]])
-    found = sg.Occluders([sheet((1, -9), (9, 9), 1)]).visible_share([lamp], points, normals)
+    found = sg.Occluders([sheet((1, -9), (9, 9), 1)]).visible_fraction([lamp], points, normals)
     np.testing.assert_array_equal(found.at_points, [[1], [0], [1]])
     brought = sg.surface_irradiance([lamp], points, normals)[:, 0]
     np.testing.assert_allclose(found.mean, brought[0] / brought[:2].sum())
@@ -90,10 +90,10 @@ def test_mean_counts_points_by_what_the_lamp_would_bring():
 
 def test_rows_are_points_and_columns_lamps():
     lamps = [sg.Light(position=(0, 0, 2)), sg.Light(position=(0, 0, 0.5)), sg.Light(kind="SUN")]
-    found = sg.Occluders([sheet((1, -9), (9, 9), 1)]).visible_share(lamps, [[0, 0, 0], [3, 0, 0]], [[0, 0, 1]] * 2)
+    found = sg.Occluders([sheet((1, -9), (9, 9), 1)]).visible_fraction(lamps, [[0, 0, 0], [3, 0, 0]], [[0, 0, 1]] * 2)
     np.testing.assert_array_equal(found.at_points, [[1, 1, 1], [0, 1, 0]])
     assert found.mean.shape == (3,)
-    empty = sg.Occluders([ball()]).visible_share([], np.zeros((0, 3)), np.zeros((0, 3)))
+    empty = sg.Occluders([ball()]).visible_fraction([], np.zeros((0, 3)), np.zeros((0, 3)))
     assert empty.mean.shape == (0,)
     assert empty.at_points.shape == (0, 0)
 
@@ -137,7 +137,7 @@ def test_agrees_with_brute_force_at_any_size_anywhere(seed, size, far):
 def test_anything_finite_gives_a_share(corners, kind, position, point, size, power):
     triangles = [(i, (i + 1) % len(corners), (i + 2) % len(corners)) for i in range(len(corners))]
     light = sg.Light(kind=kind, position=position, radius=size, size_x=size, power=power, sun_angle=1.0)
-    found = sg.Occluders([(corners, triangles)]).visible_share([light], [point], UP)
+    found = sg.Occluders([(corners, triangles)]).visible_fraction([light], [point], UP)
     assert 0 <= found.mean[0] <= 1
     assert 0 <= found.at_points[0, 0] <= 1
 
@@ -147,10 +147,10 @@ def test_same_on_any_number_of_threads():
     scene = sg.Occluders([ball(0.5, random.normal(size=3) * 2) for _ in range(8)])
     lamps = [sg.Light(position=random.normal(size=3) * 4, radius=0.5) for _ in range(20)]
     points, normals = random.normal(size=(2, 30, 3))
-    expected = scene.visible_share(lamps, points, normals, threads=1)
+    expected = scene.visible_fraction(lamps, points, normals, threads=1)
     assert 0.05 < (expected.at_points < 1).mean()
     for threads in (0, 2, 5):
-        found = scene.visible_share(lamps, points, normals, threads=threads)
+        found = scene.visible_fraction(lamps, points, normals, threads=threads)
         np.testing.assert_array_equal(found.at_points, expected.at_points)
         np.testing.assert_array_equal(found.mean, expected.mean)
 
@@ -181,14 +181,14 @@ def test_bad_meshes_are_named(meshes, message):
         ({"points": [0, 0, 0]}, r"points .*\(n, 3\)"),
         ({"samples": 0}, "samples is 0; allowed: 1 to 4096"),
         ({"samples": 5000}, "samples is 5000"),
-        ({"without": [1]}, r"leave out is 1.*below the number of meshes \(1\)"),
+        ({"excluded": [1]}, r"excluded mesh is 1.*below the number of meshes \(1\)"),
         ({"threads": -1}, "threads is -1"),
     ],
 )
 def test_refusals_name_argument_value_and_what_is_allowed(change, message):
     arguments = {"lights": [sg.Light()], "points": ORIGIN, "normals": UP} | change
     with pytest.raises(ValueError, match=message):
-        sg.Occluders([ball()]).visible_share(**arguments)
+        sg.Occluders([ball()]).visible_fraction(**arguments)
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads /proc/self/maps")

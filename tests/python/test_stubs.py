@@ -96,7 +96,7 @@ def test_package_exports_every_name_once() -> None:
         "__version__",
         "thickness",
         "Occluders",
-        "VisibleShare",
+        "VisibleFraction",
     }
     assert sorted(imported) == sorted(ast.literal_eval(exported.value)) == sorted(public)
 
@@ -152,6 +152,6 @@ def test_stub_of_the_rays_is_that_of_the_module() -> None:
     assert issubclass(rays.ThicknessCancelled, RuntimeError)
     (owner,) = in_stub["Occluders"]
     methods = definitions(owner)
-    for name in ("__init__", "visible_share"):
+    for name in ("__init__", "visible_fraction"):
         assert parameters(methods[name][0]) == parameters(bound_signature(getattr(rays.Occluders, name)))
     assert set(methods) == {"__init__", "__len__", *(name for name in vars(rays.Occluders) if is_public(name))}

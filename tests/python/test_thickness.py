@@ -46,7 +46,7 @@ def test_shell_is_its_wall_from_both_sides():
 
 def test_cavity_is_flesh_when_it_gets_no_light():
     vertices, triangles = shell(10.0, 1.0)
-    result = thickness(vertices, triangles, min_openness=0.05)
+    result = thickness(vertices, triangles, min_sky_visibility=0.05)
     outer = len(vertices) // 2
     np.testing.assert_allclose(result[:outer], 20.0, rtol=0.01)
     np.testing.assert_allclose(result[outer:], 1.0, rtol=0.02)
@@ -85,7 +85,7 @@ def test_any_mesh_gives_finite_values_within_its_box(corners, data):
     faces = data.draw(st.lists(st.tuples(index, index, index), min_size=1, max_size=20))
     vertices, triangles = np.array(corners), np.array(faces)
     openness = data.draw(st.sampled_from([0.0, 0.1]))
-    result = thickness(vertices, triangles, rays=16, min_openness=openness)
+    result = thickness(vertices, triangles, rays=16, min_sky_visibility=openness)
     assert np.isfinite(result).all()
     assert (result >= 0).all()
     used = vertices[np.unique(triangles)]
@@ -109,7 +109,7 @@ def test_any_mesh_gives_finite_values_within_its_box(corners, data):
         ({"rays": 0}, "rays is 0; allowed: 1 to 65536"),
         ({"rays": -3}, "rays is -3"),
         ({"cone_half_angle": 2.0}, "cone_half_angle is 2"),
-        ({"min_openness": 1.5}, "min_openness is 1.5"),
+        ({"min_sky_visibility": 1.5}, "min_sky_visibility is 1.5"),
         ({"threads": -1}, "threads is -1"),
     ],
 )

@@ -76,7 +76,7 @@ def foremost(mm, region):
 )
 def test_ears_are_thin_and_the_skull_and_the_face_are_not(request, head, ear_x, ear_y, face_y, crown_y):
     mm, triangles = request.getfixturevalue(head)
-    result = thickness(mm, triangles, min_openness=0.1)
+    result = thickness(mm, triangles, min_sky_visibility=0.1)
     assert np.isfinite(result).all()
 
     ear = (np.abs(mm[:, 0]) > ear_x) & (mm[:, 1] > ear_y[0]) & (mm[:, 1] < ear_y[1])
@@ -107,7 +107,7 @@ def test_vertices_split_by_a_texture_seam_have_one_value(lee_perry_smith):
 
 def test_both_ears_of_a_symmetric_head_agree(makehuman):
     mm, triangles = makehuman
-    result = thickness(mm, triangles, min_openness=0.1)
+    result = thickness(mm, triangles, min_sky_visibility=0.1)
     ear = np.flatnonzero((np.abs(mm[:, 0]) > 70) & (mm[:, 1] > 680))
     twin = [np.argmin(np.linalg.norm(mm - mm[i] * (-1, 1, 1), axis=1)) for i in ear]
     assert np.linalg.norm(mm[ear] * (-1, 1, 1) - mm[twin], axis=1).max() < 0.1

@@ -1,4 +1,4 @@
-#include "rays/thickness.h"
+#include <skinglow/thickness.h>
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 using shapes::Mesh;
 
 std::vector<double> measure(const Mesh& mesh, const ThicknessOptions& options = {}) {
-    return thickness(mesh.vertices, mesh.triangles, options);
+    return thickness(mesh.view(), options);
 }
 
 /// How far a vertex of a box is from the edges of its face: the second smallest distance to a wall.
@@ -146,7 +146,7 @@ TEST(Thickness, IsTheSameOnAnyNumberOfThreads) {
 TEST(Thickness, DoesNotMindAMeshTurnedInsideOut) {
     Mesh mesh = shapes::shell(1.0, 0.2, 3);
     const auto expected = measure(mesh);
-    mesh.turn_over();
+    mesh.flip();
     const auto values = measure(mesh);
     for (std::size_t i = 0; i < values.size(); ++i) ASSERT_NEAR(values[i], expected[i], 1e-9);
 }
@@ -198,14 +198,14 @@ TEST(Thickness, PassesBodiesWithinTheBody) {
 
 TEST(Thickness, PassesDarkCavitiesWhenAsked) {
     const Mesh mesh = shapes::shell(10.0, 1.0, 5);
-    const auto values = measure(mesh, {.min_openness = 0.05});
+    const auto values = measure(mesh, {.min_sky_visibility = 0.05});
     const std::size_t half = values.size() / 2;
     for (std::size_t i = 0; i < half; ++i) ASSERT_NEAR(values[i], 20.0, 0.1) << "outer vertex " << i;
     for (std::size_t i = half; i < values.size(); ++i)
         ASSERT_NEAR(values[i], 1.0, 0.02) << "inner vertex " << i;
     // A convex body is lit everywhere.
     const Mesh ball = shapes::sphere(1.0, 4);
-    EXPECT_EQ(measure(ball, {.min_openness = 1.0}), measure(ball));
+    EXPECT_EQ(measure(ball, {.min_sky_visibility = 1.0}), measure(ball));
 }
 
 TEST(Thickness, OfPointsAtOnePlaceIsZero) {
@@ -238,7 +238,7 @@ TEST(Thickness, IsFiniteAndBoundedOnTangledMeshes) {
 TEST(Thickness, ReportsProgressAndStopsWhenAsked) {
     const Mesh mesh = shapes::sphere(1.0, 5);
     std::vector<double> told;
-    thickness(mesh.vertices, mesh.triangles, {.min_openness = 0.1, .threads = 2}, [&](double done) {
+    thickness(mesh.view(), {.min_sky_visibility = 0.1, .threads = 2}, [&](double done) {
         told.push_back(done);
         return true;
     });
@@ -249,7 +249,7 @@ TEST(Thickness, ReportsProgressAndStopsWhenAsked) {
 
     int calls = 0;
     EXPECT_THROW(
-        thickness(mesh.vertices, mesh.triangles, {.threads = 2}, [&](double) { return ++calls < 3; }),
+        thickness(mesh.view(), {.threads = 2}, [&](double) { return ++calls < 3; }),
         ThicknessCancelled);
     EXPECT_EQ(calls, 3);
 }
@@ -284,7 +284,7 @@ TEST(Thickness, RefusesWhatIsWrongByName) {
         EXPECT_EQ(refusal(ball, {.cone_half_angle = angle}).find("cone_half_angle"), 0U);
     }
     for (const double share : {-0.1, 1.1, nan}) {
-        EXPECT_EQ(refusal(ball, {.min_openness = share}).find("min_openness"), 0U);
+        EXPECT_EQ(refusal(ball, {.min_sky_visibility = share}).find("min_sky_visibility"), 0U);
     }
     EXPECT_EQ(refusal(ball, {.threads = -1}).find("threads"), 0U);
 }

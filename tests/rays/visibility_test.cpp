@@ -1,4 +1,4 @@
-#include "rays/visibility.h"
+#include <skinglow/occlusion.h>
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,9 @@ const glm::dvec3 up(0, 0, 1);
 Occluders occluders_of(const std::vector<Mesh>& meshes,
                        const std::optional<glm::dvec3>& origin = std::nullopt) {
     std::vector<MeshView> views;
-    for (const Mesh& mesh : meshes) views.push_back({mesh.vertices, mesh.triangles});
+    for (const Mesh& mesh : meshes) {
+        views.emplace_back(mesh.vertices, mesh.triangles, "meshes[" + std::to_string(views.size()) + "] ");
+    }
     return Occluders(views, origin);
 }
 
@@ -60,7 +62,7 @@ Light area_lamp(AreaShape shape, double size_x, double size_y, double height) {
 
 double share(const Occluders& occluders, const Light& light, const glm::dvec3& point = glm::dvec3(0),
              const glm::dvec3& normal = up, const VisibilityOptions& options = {}) {
-    const VisibleShare found = visible_share(occluders, {&light, 1}, {&point, 1}, {&normal, 1}, options);
+    const VisibleFraction found = visible_fraction(occluders, {&light, 1}, {&point, 1}, {&normal, 1}, options);
     EXPECT_DOUBLE_EQ(found.mean[0], found.at_points[0]);
     return found.mean[0];
 }
@@ -163,10 +165,10 @@ TEST(Visibility, MeshesLeftOutDoNotCount) {
     EXPECT_EQ(occluders.meshes(), 3U);
     const Light lamp = point_lamp({0, 0, 4});
     EXPECT_EQ(share(occluders, lamp), 0.0);
-    EXPECT_EQ(share(occluders, lamp, {}, up, {.without = {0, 1}}), 0.0);
-    EXPECT_EQ(share(occluders, lamp, {}, up, {.without = {1, 2}}), 0.0);
-    EXPECT_EQ(share(occluders, lamp, {}, up, {.without = {2, 0, 1}}), 1.0);
-    EXPECT_NE(refusal([&] { share(occluders, lamp, {}, up, {.without = {3}}); }).find("is 3; allowed: below"),
+    EXPECT_EQ(share(occluders, lamp, {}, up, {.excluded = {0, 1}}), 0.0);
+    EXPECT_EQ(share(occluders, lamp, {}, up, {.excluded = {1, 2}}), 0.0);
+    EXPECT_EQ(share(occluders, lamp, {}, up, {.excluded = {2, 0, 1}}), 1.0);
+    EXPECT_NE(refusal([&] { share(occluders, lamp, {}, up, {.excluded = {3}}); }).find("is 3; allowed: below"),
               std::string::npos);
 }
 
@@ -176,14 +178,14 @@ TEST(Visibility, MeanCountsPlacesByWhatTheLampWouldBring) {
     // Lit; in the wall's shadow; facing away, which the wall cannot help.
     const std::vector<glm::dvec3> points{{0, 0, 0}, {3, 0, 0}, {0, 1, 0}};
     const std::vector<glm::dvec3> normals{{0, 0, 5}, {-1, 0, 1}, {0, 0, -1}};
-    const VisibleShare found = visible_share(wall, {&lamp, 1}, points, normals);
+    const VisibleFraction found = visible_fraction(wall, {&lamp, 1}, points, normals);
     EXPECT_EQ(found.at_points, (std::vector<double>{1, 0, 1}));
     const double lit = irradiance(lamp, points[0], normals[0]).r;
     const double dark = irradiance(lamp, points[1], normals[1]).r;
     EXPECT_NEAR(found.mean[0], lit / (lit + dark), 1e-12);
     const std::vector<glm::dvec3> away(3, -up);
-    EXPECT_EQ(visible_share(wall, {&lamp, 1}, points, away).mean[0], 1.0);
-    EXPECT_EQ(visible_share(wall, {&lamp, 1}, points, std::vector<glm::dvec3>(3, glm::dvec3(0))).mean[0],
+    EXPECT_EQ(visible_fraction(wall, {&lamp, 1}, points, away).mean[0], 1.0);
+    EXPECT_EQ(visible_fraction(wall, {&lamp, 1}, points, std::vector<glm::dvec3>(3, glm::dvec3(0))).mean[0],
               1.0);
 }
 
@@ -194,7 +196,7 @@ TEST(Visibility, MeanOverPlacesIsFarBetterThanOne) {
     std::vector<glm::dvec3> points;
     for (int i = 0; i < 256; ++i) points.emplace_back(-0.5 + (i + 0.5) / 256, 0.0, 0.0);
     const std::vector<glm::dvec3> normals(points.size(), up);
-    const VisibleShare found = visible_share(wall, {&disk, 1}, points, normals);
+    const VisibleFraction found = visible_fraction(wall, {&disk, 1}, points, normals);
     EXPECT_NEAR(found.mean[0], 0.5, 2e-3);  // by symmetry
 }
 
@@ -263,8 +265,8 @@ TEST(Visibility, OfAnySceneIsAShareAndTheSameOnAnyNumberOfThreads) {
         points.push_back(random.in_box(glm::dvec3(-2), glm::dvec3(2)));
         normals.push_back(random.unit_vector() * random.decades(1e-3, 1e3));
     }
-    const VisibleShare one = visible_share(occluders, lights, points, normals, {.threads = 1});
-    const VisibleShare many = visible_share(occluders, lights, points, normals, {.threads = 4});
+    const VisibleFraction one = visible_fraction(occluders, lights, points, normals, {.threads = 1});
+    const VisibleFraction many = visible_fraction(occluders, lights, points, normals, {.threads = 4});
     EXPECT_EQ(one.at_points, many.at_points);
     EXPECT_EQ(one.mean, many.mean);
     int between = 0;
@@ -276,7 +278,7 @@ TEST(Visibility, OfAnySceneIsAShareAndTheSameOnAnyNumberOfThreads) {
     // More in the way never lets more through.
     std::vector<Mesh> more = meshes;
     more.push_back(half_plane(0.5, 0.5));
-    const VisibleShare less = visible_share(occluders_of(more), lights, points, normals);
+    const VisibleFraction less = visible_fraction(occluders_of(more), lights, points, normals);
     for (std::size_t i = 0; i < one.at_points.size(); ++i)
         EXPECT_LE(less.at_points[i], one.at_points[i] + 1e-12);
 }

@@ -25,14 +25,14 @@ void MeshOptions::add_to(CLI::App& command, const std::string& mesh_name) {
     command.add_option("--group", group_, "Only this group or object of the file")->type_name("NAME");
     command.add_option("--rays", thickness_.rays, "Rays per vertex")->type_name("N")->capture_default_str();
     command
-        .add_option("--min-openness", thickness_.min_openness,
-                    "Share of the sky's light below which a hollow counts as flesh, 0 to 1")
+        .add_option("--min-sky-visibility,--min-openness", thickness_.min_sky_visibility,
+                    "Fraction of the sky's light below which a hollow counts as flesh, 0 to 1")
         ->type_name("X")
         ->capture_default_str();
 }
 
 std::vector<double> MeshOptions::measure(const TriangleMesh& mesh) const {
-    return thickness(mesh.vertices, mesh.triangles, thickness_, show_progress);
+    return thickness(mesh, thickness_, show_progress);
 }
 
 }  // namespace skinglow::cli

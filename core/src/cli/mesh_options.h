@@ -1,18 +1,18 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <skinglow/thickness.h>
 #include <string>
 #include <vector>
 
 #include "files/mesh_file.h"
-#include "rays/thickness.h"
 
 namespace skinglow::cli {
 
 /// The options by which commands take a mesh and measure its thickness.
 class MeshOptions {
   public:
-    /// Adds the mesh under the given name ("MESH" or "--mesh"), --unit, --group, --rays and --min-openness.
+    /// Adds the mesh under the given name ("MESH" or "--mesh"), --unit, --group, --rays and --min-sky-visibility.
     void add_to(CLI::App& command, const std::string& mesh_name);
 
     double unit_mm() const { return thickness_.unit_mm; }

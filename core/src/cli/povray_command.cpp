@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <iostream>
 #include <memory>
 #include <numbers>
+#include <skinglow/povray.h>
 #include <stdexcept>
 #include <system_error>
 
@@ -16,7 +16,6 @@
 #include "cli/table_options.h"
 #include "files/atomic_file.h"
 #include "numerics/argument_check.h"
-#include "povray/povray_include.h"
 #include "rig_files/file_error.h"
 
 namespace skinglow::cli {
@@ -37,12 +36,12 @@ struct Options {
     CLI::Option* surface_option = nullptr;
 };
 
-/// The mesh in the scene's axes: a file with y up is laid over as Blender's importers do.
-TriangleMesh place(TriangleMesh mesh, const std::string& up) {
-    if (up == "y") {
-        for (glm::dvec3& vertex : mesh.vertices) vertex = {vertex.x, -vertex.z, vertex.y};
-    }
-    return mesh;
+/// The mesh in the scene's axes: one with y up is turned as Blender's importers do.
+TriangleMesh turn_upright(const TriangleMesh& mesh, const std::string& up) {
+    if (up != "y") return mesh;
+    std::vector<glm::dvec3> vertices = mesh.vertices();
+    for (glm::dvec3& vertex : vertices) vertex = {vertex.x, -vertex.z, vertex.y};
+    return {std::move(vertices), mesh.triangles()};
 }
 
 /// A camera of this rotation that sees the whole mesh.
@@ -54,18 +53,11 @@ PovrayCamera frame(const TriangleMesh& mesh, const Options& options) {
         require_positive("--field-of-view", options.field_of_view) * std::numbers::pi / 180.0;
     if (options.width == 0 || options.height == 0) refuse_argument("picture size", "0", "1 to 65535 pixels");
     set_field_of_view(camera, angle);
-    glm::dvec3 low = mesh.vertices.front();
-    glm::dvec3 high = low;
-    for (const glm::dvec3& vertex : mesh.vertices) {
-        low = glm::min(low, vertex);
-        high = glm::max(high, vertex);
-    }
-    const glm::dvec3 center = 0.5 * low + 0.5 * high;
-    const double radius = 0.5 * glm::distance(low, high);
+    const Box box = box_of(mesh.vertices());
     const double narrow =
         std::tan(angle / 2.0) * std::min(1.0, double(options.height) / double(options.width));
     const glm::dmat3 axes = options.rig.camera();
-    const glm::dvec3 eye = center + axes[2] * (radius / std::sin(std::atan(narrow)));
+    const glm::dvec3 eye = box.center() + axes[2] * (box.radius() / std::sin(std::atan(narrow)));
     camera.matrix_world = glm::dmat4(glm::dvec4(axes[0], 0.0), glm::dvec4(axes[1], 0.0),
                                      glm::dvec4(axes[2], 0.0), glm::dvec4(eye, 1.0));
     return camera;
@@ -114,7 +106,7 @@ std::filesystem::path make_folder(const std::string& name) {
 
 void run(const Options& options) {
     const LightRig rig = options.rig.read();
-    const TriangleMesh mesh = place(options.mesh.read(), options.up);
+    const TriangleMesh mesh = turn_upright(options.mesh.read(), options.up);
     const std::filesystem::path folder = make_folder(options.folder);
     PovrayScene scene;
     scene.camera = frame(mesh, options);
@@ -127,14 +119,13 @@ void run(const Options& options) {
     if (options.surface_option->count() > 0) {
         scene.surface = PovraySurface{{options.surface[0], options.surface[1], options.surface[2]}, ""};
     }
-    scene.mesh.positions = mesh.vertices;
-    scene.mesh.triangles = mesh.triangles;
+    scene.mesh.geometry = mesh;
     for (const double thickness : options.mesh.measure(mesh)) {
         scene.mesh.lut_u.push_back(scene.lut.axis.texel_scale() * thickness + scene.lut.axis.texel_offset());
     }
     const auto files = povray_files(scene);
     for (const auto& [name, text] : files) write_text_atomically(folder / name, text);
-    std::cout << options.folder << ": " << files.size() << " files, " << mesh.triangles.size()
+    std::cout << options.folder << ": " << files.size() << " files, " << mesh.triangles().size()
               << " triangles; render with: cd " << options.folder << " && povray scene.ini\n";
 }
 

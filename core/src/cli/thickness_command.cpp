@@ -19,7 +19,7 @@ void run(const Options& options) {
     std::vector<double> values = options.mesh.measure(mesh);
     write_thickness(options.output, mesh, values, options.mesh.unit_mm());
     std::sort(values.begin(), values.end());
-    std::cout << options.output << ": " << mesh.vertices.size() << " vertices, " << mesh.triangles.size()
+    std::cout << options.output << ": " << mesh.vertices().size() << " vertices, " << mesh.triangles().size()
               << " triangles, thickness " << short_number(values.front()) << " to "
               << short_number(values.back()) << " mm, median " << short_number(values[values.size() / 2])
               << " mm\n";

@@ -1,22 +1,15 @@
 #pragma once
 
+#include <skinglow/mesh.h>
+
 #include <filesystem>
-#include <glm/vec3.hpp>
-#include <span>
 #include <string>
-#include <vector>
 
 namespace skinglow {
 
-/// A mesh of triangles. Vertices at one position are one vertex: what files split for normals and texture
-/// coordinates is joined again, so that `vertices` is the list of positions that thickness is asked for.
-struct TriangleMesh {
-    std::vector<glm::dvec3> vertices;   ///< in the file's unit and axes
-    std::vector<glm::uvec3> triangles;  ///< indices into `vertices`
-};
-
 /// Reads OBJ, PLY, GLB, glTF and what else Assimp knows; all objects with their placement in the scene,
-/// polygons cut into triangles, points and lines left out.
+/// polygons cut into triangles, points and lines left out. Each position is one vertex: what files split for
+/// normals and texture coordinates is joined again. In the file's unit and axes.
 /// @param group  only what has this name (an OBJ's group or object, a glTF's node or mesh); empty: everything
 /// Throws FileError where the file is unreadable, damaged or larger than 2 GiB, has no such group (naming
 /// those that it has), no triangle, an index that points nowhere or a position that is not finite.

@@ -40,7 +40,7 @@ class SceneCollector {
         std::vector<std::uint32_t> joined(part.mNumVertices);
         for (unsigned i = 0; i < part.mNumVertices; ++i) {
             const aiVector3D placed = placement * part.mVertices[i];
-            joined[i] = builder_.vertex_at({placed.x, placed.y, placed.z});
+            joined[i] = builder_.add_vertex({placed.x, placed.y, placed.z});
         }
         for (unsigned i = 0; i < part.mNumFaces; ++i) {
             const aiFace& face = part.mFaces[i];

@@ -183,7 +183,7 @@ class PlyReader {
             if (property.name == "y") position.y = value;
             if (property.name == "z") position.z = value;
         }
-        if (element.name == "vertex") vertices_.push_back(builder_.vertex_at(position));
+        if (element.name == "vertex") vertices_.push_back(builder_.add_vertex(position));
     }
 
     void read_list(const Element& element, const Property& property, const std::string& where) {

@@ -20,8 +20,8 @@ void append_little_endian(std::string& bytes, Number number) {
 std::string csv_text(const TriangleMesh& mesh, std::span<const double> thickness_mm, double unit_mm) {
     std::string text = "# Thickness of the body at each vertex, mm. Positions in units of " +
                        to_text(unit_mm) + " mm.\nvertex,x,y,z,thickness_mm\n";
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-        const glm::dvec3& position = mesh.vertices[i];
+    for (std::size_t i = 0; i < mesh.vertices().size(); ++i) {
+        const glm::dvec3& position = mesh.vertices()[i];
         text += std::to_string(i) + "," + to_text(position.x) + "," + to_text(position.y) + "," +
                 to_text(position.z) + "," + to_text(thickness_mm[i]) + "\n";
     }
@@ -31,16 +31,16 @@ std::string csv_text(const TriangleMesh& mesh, std::span<const double> thickness
 std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> thickness_mm, double unit_mm) {
     std::string bytes =
         "ply\nformat binary_little_endian 1.0\ncomment skinglow: one unit is " + to_text(unit_mm) +
-        " mm\nelement vertex " + std::to_string(mesh.vertices.size()) +
+        " mm\nelement vertex " + std::to_string(mesh.vertices().size()) +
         "\nproperty float x\nproperty float y\nproperty float z\nproperty float thickness_mm\n"
         "element face " +
-        std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+        std::to_string(mesh.triangles().size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+    for (std::size_t i = 0; i < mesh.vertices().size(); ++i) {
         for (int axis = 0; axis < 3; ++axis)
-            append_little_endian(bytes, static_cast<float>(mesh.vertices[i][axis]));
+            append_little_endian(bytes, static_cast<float>(mesh.vertices()[i][axis]));
         append_little_endian(bytes, static_cast<float>(thickness_mm[i]));
     }
-    for (const glm::uvec3& triangle : mesh.triangles) {
+    for (const glm::uvec3& triangle : mesh.triangles()) {
         bytes += '\x03';
         for (int corner = 0; corner < 3; ++corner) append_little_endian(bytes, triangle[corner]);
     }
@@ -51,9 +51,9 @@ std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> thicknes
 
 void write_thickness(const std::filesystem::path& path, const TriangleMesh& mesh,
                      std::span<const double> thickness_mm, double unit_mm) {
-    if (thickness_mm.size() != mesh.vertices.size()) {
+    if (thickness_mm.size() != mesh.vertices().size()) {
         refuse_argument("number of thicknesses", std::to_string(thickness_mm.size()),
-                        "one for each of " + std::to_string(mesh.vertices.size()) + " vertices");
+                        "one for each of " + std::to_string(mesh.vertices().size()) + " vertices");
     }
     for (std::size_t i = 0; i < thickness_mm.size(); ++i) {
         require_not_negative("thickness of vertex " + std::to_string(i), thickness_mm[i]);

@@ -27,6 +27,22 @@ double max_abs(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
+glm::dvec3 triangle_normal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    constexpr double min_area = 1e-12;  // of the parallelogram, relative to the longest edge's square
+    // Halves, because the difference of two huge coordinates may overflow; then at a size of about 1, so that no
+    // square over- or underflows.
+    glm::dvec3 u = 0.5 * b - 0.5 * a;
+    glm::dvec3 v = 0.5 * c - 0.5 * a;
+    const double size = std::max(max_abs(u), max_abs(v));
+    if (size == 0.0) return glm::dvec3(0.0);
+    u /= size;
+    v /= size;
+    const glm::dvec3 normal = glm::cross(u, v);
+    const double area = glm::length(normal);
+    const double longest_sq = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(v - u, v - u)});
+    return area > min_area * longest_sq ? normal / area : glm::dvec3(0.0);
+}
+
 glm::dmat3 frame_around(const glm::dvec3& unit_axis) {
     const glm::dvec3 size = glm::abs(unit_axis);
     const glm::dvec3 least_aligned = size.x <= size.y && size.x <= size.z ? glm::dvec3(1, 0, 0)

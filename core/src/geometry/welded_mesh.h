@@ -1,39 +1,39 @@
 #pragma once
 
+#include <skinglow/mesh.h>
+
 #include <cstdint>
-#include <glm/vec3.hpp>
-#include <span>
-#include <vector>
 
-namespace skinglow {
+#include "geometry/weld.h"
 
-/// A triangle with area: corners as welded vertices and its plane, which the normal points out of.
+namespace skinglow::detail {
+
+/// A triangle with area: corners as welded vertices, and its plane.
 struct WeldedTriangle {
     glm::uvec3 corners;
-    glm::dvec3 unit_normal;
-    double plane;  ///< dot(unit_normal, point) of every point of the plane
+    glm::dvec3 unit_normal;  ///< outward
+    double plane;            ///< dot(unit_normal, point) for every point of the plane
 };
 
-/// A mesh made ready for rays: vertices at one position are one vertex (the seams of texture coordinates and
-/// of split normals are gone), triangles without area are gone, and the whole is moved to the origin and
-/// scaled to the unit box, so that single precision serves a mesh of any size, anywhere. Outward is where the
-/// triangles' winding says, turned over as a whole where the mesh encloses a negative volume.
+/// A mesh prepared for rays: vertices at one position are one vertex (the seams of texture coordinates and of
+/// split normals are gone), triangles without area are gone, and the whole is moved to the origin and scaled to
+/// the unit box, so that single precision serves a mesh of any size, anywhere. Outward is where the triangles'
+/// winding says, flipped as a whole where the mesh encloses a negative volume.
 class WeldedMesh {
   public:
-    /// Throws std::invalid_argument naming the first vertex that is not finite or triangle that is out of
-    /// range, or where the extent of the mesh is beyond the largest double.
-    WeldedMesh(std::span<const glm::dvec3> vertices, std::span<const glm::uvec3> triangles);
+    /// @throws std::invalid_argument where the extent of the mesh is beyond the largest double
+    explicit WeldedMesh(const MeshView& mesh);
 
     /// Positions in the unit box, [-0.5, 0.5].
     const std::vector<glm::dvec3>& positions() const { return positions_; }
     const std::vector<WeldedTriangle>& triangles() const { return triangles_; }
     /// For each vertex given, its welded one.
-    const std::vector<std::uint32_t>& weld_of() const { return weld_of_; }
+    const std::vector<std::uint32_t>& welded_of() const { return weld_.index; }
     /// Triangles at a welded vertex, ascending.
     std::span<const std::uint32_t> triangles_at(std::uint32_t welded) const;
-    /// Unit vector out of the surface, the faces weighted by their angle at the vertex (Thuermer and
-    /// Wuethrich, "Computing Vertex Normals from Polygonal Facets", J. Graphics Tools 3(1), 1998); (0,0,0)
-    /// where the faces cancel out or there are none.
+    /// Unit vector out of the surface, the faces weighted by their angle at the vertex (Thuermer and Wuethrich,
+    /// "Computing Vertex Normals from Polygonal Facets", J. Graphics Tools 3(1), 1998); (0, 0, 0) where the faces
+    /// cancel out or there are none.
     glm::dvec3 vertex_normal(std::uint32_t welded) const;
     /// Length of the unit box's edge in the units given; 0 where all vertices coincide.
     double scale() const { return scale_; }
@@ -41,14 +41,12 @@ class WeldedMesh {
     double diagonal() const { return diagonal_; }
 
   private:
-    void weld(std::span<const glm::dvec3> vertices);
-    void normalize(std::span<const glm::dvec3> vertices, std::span<const glm::uvec3> triangles);
+    void normalize(const MeshView& mesh);
     void add_triangles(std::span<const glm::uvec3> triangles);
     void orient_outwards();
     void index_triangles();
 
-    std::vector<std::uint32_t> weld_of_;
-    std::vector<std::uint32_t> first_of_weld_;  ///< a given vertex that stands for each welded one
+    Weld weld_;
     std::vector<glm::dvec3> positions_;
     std::vector<WeldedTriangle> triangles_;
     std::vector<std::uint32_t> triangle_begin_;
@@ -57,4 +55,4 @@ class WeldedMesh {
     double diagonal_ = 0;
 };
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
+#include "geometry/vector.h"
 #include "numerics/argument_check.h"
 #include "povray/povray_parts.h"
 #include "povray/sdl_text.h"
@@ -10,18 +11,18 @@
 namespace skinglow {
 namespace {
 
-void set_centerd_window(PovrayCamera& camera, double width, const glm::dvec2& shift) {
+void set_centered_window(PovrayCamera& camera, double width, const glm::dvec2& shift) {
     const double aspect = static_cast<double>(camera.height) / static_cast<double>(camera.width);
     const glm::dvec2 half(0.5 * width, 0.5 * width * aspect);
     // Blender counts shift in the longer side of the picture.
     const glm::dvec2 center = shift * 2.0 * std::max(half.x, half.y);
-    camera.window_low = center - half;
-    camera.window_high = center + half;
+    camera.window_min = center - half;
+    camera.window_max = center + half;
 }
 
 /// Axis of the camera in the world, without the matrix's scale.
 glm::dvec3 axis(const PovrayCamera& camera, int column) {
-    return glm::normalize(glm::dvec3(camera.matrix_world[column]));
+    return unit(glm::dvec3(camera.matrix_world[column]));
 }
 
 }  // namespace
@@ -49,11 +50,11 @@ void set_projection(PovrayCamera& camera, const glm::dmat4& projection) {
     }
     const double w = perspective ? by_depth : constant;
     for (int k = 0; k < 2; ++k) {
-        // Solved for the place at which the picture's edges, -1 and 1, see depth 1 (perspective) or any
+        // Solved for the coordinate that the picture's edges, -1 and 1, see at depth 1 (perspective) or at any depth
         // (orthographic).
         const double offset = perspective ? projection[2][k] : -projection[3][k];
-        camera.window_low[k] = (-w + offset) / projection[k][k];
-        camera.window_high[k] = (w + offset) / projection[k][k];
+        camera.window_min[k] = (-w + offset) / projection[k][k];
+        camera.window_max[k] = (w + offset) / projection[k][k];
     }
     camera.projection = perspective ? PovrayProjection::perspective : PovrayProjection::orthographic;
 }
@@ -63,32 +64,34 @@ void set_field_of_view(PovrayCamera& camera, double angle_x, const glm::dvec2& s
         refuse_argument("camera angle_x", to_text(angle_x), "an angle above 0 and below pi radians");
     }
     camera.projection = PovrayProjection::perspective;
-    set_centerd_window(camera, 2.0 * std::tan(0.5 * angle_x), shift);
+    set_centered_window(camera, 2.0 * std::tan(0.5 * angle_x), shift);
 }
 
 void set_orthographic(PovrayCamera& camera, double width, const glm::dvec2& shift) {
     camera.projection = PovrayProjection::orthographic;
-    set_centerd_window(camera, require_positive("camera width", width), shift);
+    set_centered_window(camera, require_positive("camera width", width), shift);
 }
 
+namespace detail {
+
 void validate(const PovrayCamera& camera) {
-    constexpr std::uint32_t most = 65535;
+    constexpr std::uint32_t max_size = 65535;
     for (const auto& [name, size] :
          {std::pair{"camera width", camera.width}, {"camera height", camera.height}}) {
-        if (size < 1 || size > most) refuse_argument(name, std::to_string(size), "1 to 65535 pixels");
+        if (size < 1 || size > max_size) refuse_argument(name, std::to_string(size), "1 to 65535 pixels");
     }
     for (int column = 0; column < 4; ++column) {
         const glm::dvec3 vector(camera.matrix_world[column]);
         require_finite("camera matrix_world column " + std::to_string(column), vector);
-        if (column < 3 && !(glm::length(vector) > 0.0)) {
+        if (column < 3 && vector == glm::dvec3(0.0)) {
             refuse_argument("camera matrix_world column " + std::to_string(column), to_text(vector),
                             "a vector of length above 0");
         }
     }
     for (int k = 0; k < 2; ++k) {
-        require_finite("camera window_low", camera.window_low[k]);
-        require_finite("camera window_high", camera.window_high[k]);
-        require_positive("camera window size", camera.window_high[k] - camera.window_low[k]);
+        require_finite("camera window_min", camera.window_min[k]);
+        require_finite("camera window_max", camera.window_max[k]);
+        require_positive("camera window size", camera.window_max[k] - camera.window_min[k]);
     }
 }
 
@@ -97,11 +100,11 @@ std::string povray_camera_text(const PovrayCamera& camera) {
     const glm::dvec3 right = axis(camera, 0);
     const glm::dvec3 up = axis(camera, 1);
     const glm::dvec3 ahead = -axis(camera, 2);
-    const glm::dvec2 center = 0.5 * (camera.window_low + camera.window_high);
-    const glm::dvec2 size = camera.window_high - camera.window_low;
+    const glm::dvec2 center = 0.5 * camera.window_min + 0.5 * camera.window_max;
+    const glm::dvec2 size = camera.window_max - camera.window_min;
     glm::dvec3 location(camera.matrix_world[3]);
     glm::dvec3 direction = ahead;
-    // A shifted picture: a perspective's middle ray leans, an orthographic camera stands aside.
+    // A shifted picture: a perspective's central ray leans, an orthographic camera moves aside.
     (perspective ? direction : location) += center.x * right + center.y * up;
     SdlText text;
     text.add("// No look_at: it would mirror the picture of a right-handed scene.\ncamera {\n");
@@ -111,4 +114,5 @@ std::string povray_camera_text(const PovrayCamera& camera) {
     return text.take();
 }
 
+}  // namespace detail
 }  // namespace skinglow

@@ -1,128 +1,129 @@
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "geometry/vector.h"
+#include "numerics/argument_check.h"
 #include "povray/povray_parts.h"
 #include "povray/sdl_text.h"
+#include "radiometry/prepared_light.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+/// Above this spread, radians, the tangent has no bound, and there is no edge.
+constexpr double lambert_spread = 0.9999 * pi;
 
 double degrees(double radians) {
     return radians * 180.0 / pi;
 }
 
-/// Blender's inverse square in POV-Ray: attenuation is 2 / (1 + (d / f)^2), so 1 / (2 f^2) of the light makes
-/// 1 / (f^2 + d^2). f is a soft ball's radius, which has that very law, else so small that it does not show.
-double fade_distance(const Light& light, const PovrayBounds& bounds) {
-    const bool has_disk = light.kind == LightKind::point || light.kind == LightKind::spot;
-    if (has_disk && light.soft_falloff && light.radius > 0.0) return light.radius;
-    const glm::dvec3 nearest = glm::clamp(light.position, bounds.low, bounds.high);
-    const double size = std::max(bounds.diagonal(), 1e-100);
-    return 1e-4 * std::max(glm::length(light.position - nearest), 1e-3 * size);
+/// A step from a position that rounding does not lose.
+double visible_step(const glm::dvec3& position, double step) {
+    return std::max(step, 1e-6 * max_abs(position));
 }
 
-void add_fading_color(SdlText& text, const Light& light, double power_to_intensity,
-                      const PovrayBounds& bounds) {
+void add_point_at(SdlText& text, const PreparedLight& light) {
+    const double step = visible_step(light.position(), 1.0);
+    text.add("\n  spotlight point_at ").add(light.position() + step * light.direction());
+}
+
+/// Blender's inverse square in POV-Ray: attenuation is 2 / (1 + (d / f)^2), so 1 / (2 f^2) of the light makes
+/// 1 / (f^2 + d^2). f is a soft ball's radius, which has that very law, else so small that it does not show.
+double fade_distance(const Light& light, const Box& bounds) {
+    constexpr double min_fade = 1e-4 * min_light_distance;
+    const bool has_disk = light.kind == LightKind::point || light.kind == LightKind::spot;
+    if (has_disk && light.soft_falloff && light.radius > 0.0) return std::max(light.radius, min_fade);
+    const double size = 2.0 * bounds.radius();
+    return std::max(1e-4 * std::max(bounds.min_distance(light.position), 1e-3 * size), min_fade);
+}
+
+/// "rgb <...>", refused by the light's name where it is beyond the largest double.
+void add_color(SdlText& text, const Light& light, double factor) {
+    text.add("\n  rgb ").add(require_finite("light \"" + light.name + "\" intensity", light.color * factor));
+}
+
+void add_fading_color(SdlText& text, const Light& light, double power_to_intensity, const Box& bounds) {
     const double f = fade_distance(light, bounds);
-    text.add("\n  rgb ").add(light.color * (light.power * power_to_intensity / (2.0 * f * f)));
+    // One factor after the other, so that no square over- or underflows.
+    add_color(text, light, light.power / f * power_to_intensity / (2.0 * f));
     text.add("\n  fade_distance ").add(f).add(" fade_power 2");
 }
 
 /// POV-Ray's cone fades by the same smoothstep in the cosine as Blender's.
-void add_spot(SdlText& text, const Light& light) {
+void add_spot(SdlText& text, const Light& light, const PreparedLight& prepared) {
     const double cos_edge = std::cos(0.5 * light.spot_angle);
     const double cos_fade = cos_edge + light.spot_blend * (1.0 - cos_edge);
-    text.add("\n  spotlight point_at ").add(light.position + glm::normalize(light.direction));
+    add_point_at(text, prepared);
     text.add(" radius ").add(degrees(std::acos(std::clamp(cos_fade, -1.0, 1.0))));
     text.add(" falloff ").add(degrees(0.5 * light.spot_angle));
     text.add(" tightness ").add(light.spot_cosine ? 1.0 : 0.0);
 }
 
-/// Half a turn: the tangent has no bound, and there is no edge.
-bool is_lambert(double spread) {
-    return spread > 0.9999 * pi;
-}
-
 /// A spread fades from its axis on by Blender's (tan h - tan t) / tan h, which is not among POV-Ray's laws: a
-/// smoothstep in the cosine, times the cosine to a power, is made to agree on the axis, at the edge and
-/// half-way between them.
-double spread_tightness(double spread) {
-    const double half = 0.5 * spread;
-    const double cos_middle = std::cos(0.5 * half);
-    const double share = (cos_middle - std::cos(half)) / (1.0 - std::cos(half));
-    const double wanted = 1.0 - std::tan(0.5 * half) / std::tan(half);
-    return 1.0 + std::log(wanted / (share * share * (3.0 - 2.0 * share))) / std::log(cos_middle);
+/// smoothstep in the cosine, times the cosine to a power, is made to agree on the axis, at the edge and half-way
+/// between them. Written in half angles, because differences of cosines near 1 would cancel.
+double spread_tightness(double half_spread) {
+    const double sine = std::sin(0.5 * half_spread);
+    const double fraction = std::sin(0.75 * half_spread) * std::sin(0.25 * half_spread) / (sine * sine);
+    const double smoothstep = fraction * fraction * (3.0 - 2.0 * fraction);
+    const double tangent = std::tan(0.5 * half_spread);
+    const double wanted = 0.5 * (1.0 + tangent * tangent);
+    const double log_cosine = 0.5 * std::log1p(-sine * sine);
+    return 1.0 + std::log(wanted / smoothstep) / log_cosine;
 }
 
-void add_area(SdlText& text, const Light& light) {
-    const glm::dvec3 facing = glm::normalize(light.direction);
-    glm::dvec3 x = light.tangent - glm::dot(light.tangent, facing) * facing;
-    if (!(glm::length(x) > 1e-9 * glm::length(light.tangent))) {
-        const glm::dvec3 other = std::abs(facing.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
-        x = glm::cross(other, facing);
-    }
-    x = glm::normalize(x);
+void add_area(SdlText& text, const Light& light, const PreparedLight& prepared) {
     // A Lambert emitter's cosine is a cone of half a turn with tightness 1 and a hard edge.
-    const double falloff = degrees(0.5 * light.spread);
-    const bool lambert = is_lambert(light.spread);
-    text.add("\n  spotlight point_at ")
-        .add(light.position + facing)
-        .add(" radius ")
-        .add(lambert ? falloff : 0.0);
-    text.add(" falloff ").add(falloff).add(" tightness ").add(lambert ? 1.0 : spread_tightness(light.spread));
+    const bool lambert = light.spread > lambert_spread;
+    const double half_spread = prepared.area()->half_spread();
+    const double falloff = degrees(half_spread);
+    add_point_at(text, prepared);
+    text.add(" radius ").add(lambert ? falloff : 0.0).add(" falloff ").add(falloff);
+    text.add(" tightness ").add(lambert ? 1.0 : spread_tightness(half_spread));
     if (light.size_x > 0.0 || light.size_y > 0.0) {
-        // POV-Ray's samples reach the rim: nine of them over sqrt(8/10) of the width spread as the whole
-        // width does.
+        // POV-Ray's samples reach the rim: nine of them over sqrt(8/10) of the width spread as the whole width does.
         const double inner = std::sqrt(0.8);
-        text.add("\n  area_light ").add(inner * light.size_x * x).add(", ");
-        text.add(inner * light.size_y * glm::cross(facing, x)).add(", 9, 9 adaptive 1 area_illumination on");
+        text.add("\n  area_light ").add(inner * light.size_x * prepared.frame()[0]).add(", ");
+        text.add(inner * light.size_y * prepared.frame()[1]).add(", 9, 9 adaptive 1 area_illumination on");
         if (light.area_shape == AreaShape::ellipse) text.add(" circular");
     }
 }
 
-/// A cone or spread of no angle gives no light.
-bool is_shut(const Light& light) {
-    return (light.kind == LightKind::spot && !(light.spot_angle > 0.0)) ||
-           (light.kind == LightKind::area && !(light.spread > 0.0));
-}
-
-double spread_gain(double spread) {
-    const double half = 0.5 * spread;
-    return is_lambert(spread) ? 1.0 : std::tan(half) / (std::tan(half) - half);
+void add_sun(SdlText& text, const Light& light, const PreparedLight& prepared, const Box& bounds) {
+    const glm::dvec3 center = bounds.center();
+    const double distance = visible_step(center, 2.0 * std::max(2.0 * bounds.radius(), 1.0));
+    text.add(center - distance * prepared.direction());
+    add_color(text, light, light.power / pi);
+    text.add("\n  parallel point_at ").add(center);
 }
 
 }  // namespace
 
-std::string povray_lights_text(const std::vector<Light>& lights_on, const PovrayBounds& bounds) {
+std::string povray_lights_text(const std::vector<Light>& lights_on, const Box& bounds) {
     SdlText text;
     text.add("// Blender's watts: POV-Ray's diffuse has no 1/pi, so a light is its irradiance / pi.\n");
     for (const Light& light : lights_on) {
-        if (is_shut(light)) continue;
-        text.add("// " + sdl_comment(light.name) + " (")
-            .add(to_text(light.kind))
-            .add(")\nlight_source {\n  ");
+        const PreparedLight prepared(light);
+        if (prepared.dark()) continue;
+        text.add("// " + sdl_comment(light.name) + " (").add(to_text(light.kind)).add(")\nlight_source {\n  ");
         if (light.kind == LightKind::sun) {
-            const glm::dvec3 towards = glm::normalize(light.direction);
-            const double away = 2.0 * std::max(bounds.diagonal(), 1.0);
-            text.add(bounds.center() - away * towards).add("\n  rgb ").add(light.color * (light.power / pi));
-            text.add("\n  parallel point_at ").add(bounds.center());
+            add_sun(text, light, prepared, bounds);
         } else if (light.kind == LightKind::area) {
             text.add(light.position);
-            add_fading_color(text, light, spread_gain(light.spread) / (pi * pi), bounds);
-            add_area(text, light);
+            const double gain = light.spread > lambert_spread ? 1.0 : prepared.area()->axis_gain();
+            add_fading_color(text, light, gain / (pi * pi), bounds);
+            add_area(text, light, prepared);
         } else {
             text.add(light.position);
             add_fading_color(text, light, 1.0 / (4.0 * pi * pi), bounds);
-            if (light.kind == LightKind::spot) add_spot(text, light);
+            if (light.kind == LightKind::spot) add_spot(text, light, prepared);
         }
         text.add("\n}\n");
     }
     return text.take();
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -17,11 +17,8 @@ constexpr std::array<NamedMode, 3> modes = {NamedMode{LutMode::existing, "existi
 template <typename ValueAt>
 void add_array(SdlText& text, std::string_view name, std::size_t size, std::size_t per_line,
                ValueAt value_at) {
-    text.add("#declare Skinglow_")
-        .add(name)
-        .add(" = array[")
-        .add(static_cast<std::uint32_t>(size))
-        .add("] {");
+    text.add("#declare Skinglow_").add(name).add(" = array[");
+    text.add(static_cast<std::uint32_t>(size)).add("] {");
     for (std::size_t i = 0; i < size; ++i) text.add_item(i, per_line, value_at(i));
     text.add("\n}\n");
 }
@@ -40,7 +37,7 @@ void add_paper_table(SdlText& text, const PovrayLut& lut, const std::vector<Ligh
     text.add("// Base lookup: brightness by thickness.\n");
     add_array(text, "Base", lut.base.size(), 8, [&](std::size_t i) { return lut.base[i]; });
     text.add("#declare Skinglow_Blood_Weight = ").add(lut.blood_weight).add(";  // B\n");
-    text.add("// Lamps that are on. Colors as vectors: POV-Ray keeps `rgb` colors in 24 bits only.\n");
+    text.add("// Lights that are on. Colors as vectors: POV-Ray keeps `rgb` colors in 24 bits only.\n");
     text.add("#declare Skinglow_Light_Count = ").add(count).add(";\n");
     if (count > 0) add_lights(text, lights);
     text.add("// Eq. 2 and 3: what the distances are measured to, and k_c, k_l, k_q.\n");
@@ -49,11 +46,8 @@ void add_paper_table(SdlText& text, const PovrayLut& lut, const std::vector<Ligh
         count > 0
             ? "Skinglow_Light_Kinds, Skinglow_Light_Colors, Skinglow_Light_Positions, Skinglow_Light_Powers"
             : "0, 0, 0, 0");
-    text.add(",\n    ")
-        .add(lut.point)
-        .add(", ")
-        .add(glm::dvec3(k.constant, k.linear, k.quadratic))
-        .add(");  // L\n");
+    text.add(",\n    ").add(lut.point).add(", ").add(glm::dvec3(k.constant, k.linear, k.quadratic));
+    text.add(");  // L\n");
     text.add(
         "#declare Skinglow_Table = Skinglow_Recolor(Skinglow_Base, Skinglow_Blood_Weight, "
         "Skinglow_Light)\n");
@@ -87,6 +81,8 @@ LutMode lut_mode(std::string_view name) {
     }
     refuse_argument("mode", "\"" + std::string(name) + "\"", "existing, paper or physical");
 }
+
+namespace detail {
 
 std::string_view povray_image_keyword(std::string_view field, std::string_view file) {
     using Keyword = std::pair<std::string_view, std::string_view>;
@@ -134,13 +130,9 @@ void validate(const PovrayLut& lut) {
 std::string povray_lut_text(const PovrayLut& lut, const std::vector<Light>& lights_on) {
     SdlText text;
     text.add("// Lookup of the light that comes through, mode `").add(to_text(lut.mode)).add("`: ");
-    text.add(static_cast<std::uint32_t>(lut.axis.size()))
-        .add(" entries, 0 to ")
-        .add(lut.axis.max_thickness_mm());
+    text.add(static_cast<std::uint32_t>(lut.axis.size())).add(" entries, 0 to ").add(lut.axis.max_thickness_mm());
     text.add(" mm, at the centers of u's texels. Linear Rec.709.\n#include \"skinglow.inc\"\n");
-    text.add("#declare Skinglow_Strength = ")
-        .add(lut.strength)
-        .add(";  // radiance shown = strength * lookup\n");
+    text.add("#declare Skinglow_Strength = ").add(lut.strength).add(";  // radiance shown = strength * lookup\n");
     if (lut.glow == PovrayGlow::image) {
         text.add("#declare Skinglow_Lookup = ")
             .add("Skinglow_Image_Pigment(" + sdl_string("LUT image", lut.image) + ")\n");
@@ -157,4 +149,5 @@ std::string povray_lut_text(const PovrayLut& lut, const std::vector<Light>& ligh
     return text.take();
 }
 
+}  // namespace detail
 }  // namespace skinglow

@@ -1,22 +1,11 @@
 #pragma once
 
-#include <string>
+#include <skinglow/povray.h>
 
-#include "povray/povray_scene.h"
+#include "numerics/detail.h"
 
-/// The files behind povray_files, one function each. Not for use outside of this folder.
-namespace skinglow {
-
-/// A box about the triangles, for what depends on the size of the scene.
-struct PovrayBounds {
-    glm::dvec3 low;
-    glm::dvec3 high;
-
-    glm::dvec3 center() const { return 0.5 * low + 0.5 * high; }
-    double diagonal() const;
-};
-
-PovrayBounds bounds_of(const PovrayMesh& mesh);
+/// The files behind povray_files, one function each.
+namespace skinglow::detail {
 
 /// Each checks its part of the scene first; std::invalid_argument names the field.
 void validate(const PovrayMesh& mesh, const std::optional<PovraySurface>& surface);
@@ -27,11 +16,11 @@ std::string mesh_identifier(const PovrayMesh& mesh);
 
 std::string povray_mesh_text(const PovrayScene& scene);
 std::string povray_camera_text(const PovrayCamera& camera);
-std::string povray_lights_text(const std::vector<Light>& lights_on, const PovrayBounds& bounds);
+std::string povray_lights_text(const std::vector<Light>& lights_on, const Box& bounds);
 std::string povray_lut_text(const PovrayLut& lut, const std::vector<Light>& lights_on);
 
 /// Refuses a file name with a folder in it, an empty one, or one whose type POV-Ray does not read.
 /// @return POV-Ray's keyword for the type, "exr" or another
 std::string_view povray_image_keyword(std::string_view field, std::string_view file);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

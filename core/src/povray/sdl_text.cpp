@@ -5,7 +5,7 @@
 
 #include "numerics/argument_check.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr std::string_view hexadecimal = "0123456789ABCDEF";
@@ -22,10 +22,10 @@ bool is_printable_ascii(char c) {
 }  // namespace
 
 SdlText& SdlText::add(double value) {
+    require_finite("number in the POV-Ray scene", value);
     std::array<char, 32> buffer{};
-    // Minus zero and zero are the same to a scene; one spelling keeps files of equal scenes equal.
-    const auto end =
-        std::to_chars(buffer.data(), buffer.data() + buffer.size(), value == 0.0 ? 0.0 : value).ptr;
+    // + 0: minus zero becomes zero, so that files of equal scenes are equal.
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value + 0.0).ptr;
     text_.append(buffer.data(), end);
     return *this;
 }
@@ -57,11 +57,11 @@ std::string sdl_identifier(std::string_view kind, std::string_view name) {
         }
     }
     // POV-Ray ends at "String too long" somewhere above: a sum over the rest keeps long names apart.
-    constexpr std::size_t most = 120;
-    if (identifier.size() > most) {
+    constexpr std::size_t max_length = 120;
+    if (identifier.size() > max_length) {
         std::uint64_t sum = 0;
         for (const char c : identifier) sum = sum * 1099511628211ULL + static_cast<unsigned char>(c);
-        identifier.resize(most);
+        identifier.resize(max_length);
         identifier += '_';
         identifier += std::to_string(sum);
     }
@@ -86,4 +86,4 @@ std::string sdl_comment(std::string_view text) {
     return comment;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

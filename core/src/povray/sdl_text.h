@@ -8,7 +8,9 @@
 #include <string_view>
 #include <utility>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// Text in POV-Ray's scene description language. Numbers are the shortest that read back as the same double.
 class SdlText {
@@ -17,7 +19,7 @@ class SdlText {
         text_ += text;
         return *this;
     }
-    SdlText& add(double value);
+    SdlText& add(double value);  ///< throws std::invalid_argument on inf and NaN, which SDL has not
     SdlText& add(std::uint32_t value);
     SdlText& add(const glm::dvec2& value);  ///< <x,y>
     SdlText& add(const glm::dvec3& value);  ///< <x,y,z>
@@ -50,4 +52,4 @@ std::string sdl_string(std::string_view field, std::string_view text);
 /// line.
 std::string sdl_comment(std::string_view text);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

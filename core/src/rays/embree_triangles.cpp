@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 #if RTC_VERSION_MAJOR >= 4
@@ -19,10 +19,11 @@ using QueryContext = RTCRayQueryContext;
 using QueryContext = RTCIntersectContext;
 #endif
 
-/// What Embree hands back to the filter: its own context first, so that one points to the other.
+/// What Embree hands back to a filter: its own context first, so that one points to the other.
 struct FilterContext {
     QueryContext embree;
-    std::span<const TriangleRange> without;
+    std::span<const TriangleRange> excluded;  ///< for reject_excluded
+    RayHits* found;                           ///< for collect
 };
 
 [[noreturn]] void fail(const std::string& what) {
@@ -39,14 +40,12 @@ RTCDevice open_device() {
     // No thread count: with TBB that would limit the whole process, and with it the host's renderer.
     RTCDevice device = rtcNewDevice("ignore_config_files=1");
     if (device == nullptr) fail("no device, error code " + std::to_string(rtcGetDeviceError(nullptr)));
-    // Embree 3 and 4 share their names but not their calling conventions. Where a host has loaded the other
-    // one for everybody, the calls land there and rays silently miss: refuse instead.
-    const auto loaded = rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MAJOR);
-    if (loaded != RTC_VERSION_MAJOR) {
+    try {
+        require_embree(rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MAJOR),
+                       rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED));
+    } catch (...) {
         rtcReleaseDevice(device);
-        fail("version " + std::to_string(loaded) +
-             " answers in this process, but this was built for version " + std::to_string(RTC_VERSION_MAJOR) +
-             "; load skinglow through `import skinglow`, or build it with a static Embree");
+        throw;
     }
     return device;
 }
@@ -65,14 +64,27 @@ RTCRay ray_from(const glm::dvec3& origin, const glm::dvec3& direction, float fro
     return ray;
 }
 
-/// Called for what a shadow ray meets: says no to triangles that do not count, and the ray goes on.
-void leave_out(const RTCFilterFunctionNArguments* arguments) {
-    const auto& without = reinterpret_cast<const FilterContext*>(arguments->context)->without;
+/// Occlusion filter: rejects hits on excluded triangles.
+void reject_excluded(const RTCFilterFunctionNArguments* arguments) {
+    const auto& excluded = reinterpret_cast<const FilterContext*>(arguments->context)->excluded;
     for (unsigned int i = 0; i < arguments->N; ++i) {
         const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, i);
-        for (const TriangleRange& range : without) {
+        for (const TriangleRange& range : excluded) {
             if (triangle >= range.begin && triangle < range.end) arguments->valid[i] = 0;
         }
+    }
+}
+
+/// Intersection filter: notes every hit and rejects it, so that the ray goes on to its end.
+void collect(const RTCFilterFunctionNArguments* arguments) {
+    RayHits& found = *reinterpret_cast<const FilterContext*>(arguments->context)->found;
+    for (unsigned int i = 0; i < arguments->N; ++i) {
+        if (arguments->valid[i] == 0) continue;
+        arguments->valid[i] = 0;
+        found.overflowed = found.overflowed || found.count == RayHits::max_count;
+        if (found.overflowed) continue;
+        found.hits[found.count++] = {RTCRayN_tfar(arguments->ray, arguments->N, i),
+                                     RTCHitN_primID(arguments->hit, arguments->N, i)};
     }
 }
 
@@ -93,13 +105,29 @@ void add_triangles(RTCDevice device, RTCScene scene, std::span<const glm::dvec3>
     for (const glm::uvec3& t : corners) {
         for (int k = 0; k < 3; ++k) *to_corner++ = t[k];
     }
-    rtcSetGeometryOccludedFilterFunction(geometry, leave_out);
+    rtcSetGeometryOccludedFilterFunction(geometry, reject_excluded);
+    rtcSetGeometryIntersectFilterFunction(geometry, collect);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
 }
 
 }  // namespace
+
+void require_embree(long version_major, long filter_functions) {
+    // Embree 3 and 4 share their names but not their calling conventions: where a host has loaded the other one for
+    // everybody, the calls land there and rays silently miss.
+    if (version_major != RTC_VERSION_MAJOR) {
+        fail("version " + std::to_string(version_major) +
+             " answers in this process, but this was built for version " + std::to_string(RTC_VERSION_MAJOR) +
+             "; load skinglow through `import skinglow`, or build it with a static Embree");
+    }
+    // Embree stores a filter that it was built not to call, and reports nothing.
+    if (filter_functions == 0) {
+        fail("this build of it calls no filter functions, which leave meshes out of occlusion and find thickness; "
+             "build Embree with EMBREE_FILTER_FUNCTION=ON, its default");
+    }
+}
 
 struct EmbreeTriangles::Handles {
     RTCDevice device = open_device();
@@ -125,27 +153,31 @@ EmbreeTriangles::EmbreeTriangles(std::span<const glm::dvec3> points, std::span<c
 
 EmbreeTriangles::~EmbreeTriangles() = default;
 
-std::optional<EmbreeTriangles::Hit> EmbreeTriangles::nearest(const glm::dvec3& origin,
-                                                             const glm::dvec3& direction, float from) const {
+void EmbreeTriangles::crossings(const glm::dvec3& origin, const glm::dvec3& direction, float from,
+                                RayHits& found) const {
+    found.count = 0;
+    found.overflowed = false;
     RTCRayHit query{};
     query.ray = ray_from(origin, direction, from, std::numeric_limits<float>::infinity());
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    FilterContext context{.embree = {}, .excluded = {}, .found = &found};
 #if RTC_VERSION_MAJOR >= 4
-    rtcIntersect1(handles_->scene, &query, nullptr);
+    rtcInitRayQueryContext(&context.embree);
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &context.embree;
+    rtcIntersect1(handles_->scene, &query, &arguments);
 #else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(handles_->scene, &context, &query);
+    rtcInitIntersectContext(&context.embree);
+    rtcIntersect1(handles_->scene, &context.embree, &query);
 #endif
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return Hit{query.hit.primID, query.ray.tfar};
 }
 
 bool EmbreeTriangles::occluded(const glm::dvec3& origin, const glm::dvec3& direction, float from, float to,
-                               std::span<const TriangleRange> without) const {
+                               std::span<const TriangleRange> excluded) const {
     RTCRay ray = ray_from(origin, direction, from, to);
-    FilterContext context{.embree = {}, .without = without};
+    FilterContext context{.embree = {}, .excluded = excluded, .found = nullptr};
 #if RTC_VERSION_MAJOR >= 4
     rtcInitRayQueryContext(&context.embree);
     RTCOccludedArguments arguments;
@@ -159,4 +191,4 @@ bool EmbreeTriangles::occluded(const glm::dvec3& origin, const glm::dvec3& direc
     return ray.tfar < 0;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
-#include <optional>
 #include <span>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// Triangles `begin` to below `end` of those given.
 struct TriangleRange {
@@ -14,34 +17,50 @@ struct TriangleRange {
     std::uint32_t end;
 };
 
-/// Embree, behind a door of its own: nothing else of ours includes it. Embree 3 and 4 are both served. Single
-/// precision: what is given should lie about the origin, at about the size of 1. All that is const may be
-/// called from many threads at once.
+/// Everything that a ray crosses, in no order.
+struct RayHits {
+    struct Hit {
+        float distance;
+        std::uint32_t triangle;
+    };
+    static constexpr std::size_t max_count = 256;
+
+    std::array<Hit, max_count> hits;
+    std::size_t count = 0;
+    bool overflowed = false;  ///< there are more than max_count; the rest is lost
+};
+
+/// Triangles in Embree 3 or 4. The only file that includes Embree. Single precision: coordinates should lie about
+/// the origin, at about the size of 1. All that is const may be called from many threads at once.
 class EmbreeTriangles {
   public:
-    /// Copies the triangles and builds the acceleration structure. No ray slips through between two that
-    /// share an edge. Throws std::runtime_error where Embree cannot work, or is not the version this was
-    /// built for.
+    /// Copies the triangles and builds the acceleration structure. No ray slips through between two that share an
+    /// edge. Throws as require_embree, and std::runtime_error where Embree fails.
     EmbreeTriangles(std::span<const glm::dvec3> points, std::span<const glm::uvec3> corners);
     ~EmbreeTriangles();
     EmbreeTriangles(const EmbreeTriangles&) = delete;
     EmbreeTriangles& operator=(const EmbreeTriangles&) = delete;
 
-    struct Hit {
-        std::uint32_t triangle;
-        float distance;
-    };
-    /// The first triangle along a ray, from a distance on, either side of it. @param direction  unit length
-    std::optional<Hit> nearest(const glm::dvec3& origin, const glm::dvec3& direction, float from) const;
+    /// All triangles that a ray crosses, from a distance on, either side of them, in one traversal. A ray through
+    /// an edge may hit both triangles there.
+    /// @param direction  unit length
+    void crossings(const glm::dvec3& origin, const glm::dvec3& direction, float from, RayHits& found) const;
 
-    /// Whether a triangle lies between two distances along a ray. @param direction  unit length
-    /// @param without  triangles that do not count
+    /// Whether a triangle lies between two distances along a ray.
+    /// @param direction  unit length
+    /// @param excluded   triangles that do not count
     bool occluded(const glm::dvec3& origin, const glm::dvec3& direction, float from, float to,
-                  std::span<const TriangleRange> without = {}) const;
+                  std::span<const TriangleRange> excluded = {}) const;
 
   private:
     struct Handles;
     std::unique_ptr<Handles> handles_;
 };
 
-}  // namespace skinglow
+/// Throws std::runtime_error that says what to do, unless the Embree that answers in this process can serve: another
+/// major version, or one without filter functions, gives wrong answers and no error.
+/// @param version_major      its RTC_DEVICE_PROPERTY_VERSION_MAJOR
+/// @param filter_functions   its RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED; 0: none
+void require_embree(long version_major, long filter_functions);
+
+}  // namespace skinglow::detail

@@ -1,98 +1,100 @@
-#include "rays/visibility.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <skinglow/occlusion.h>
 #include <string>
 
 #include "numerics/argument_check.h"
 #include "numerics/parallel_blocks.h"
 #include "radiometry/prepared_light.h"
-#include "rays/lamp_sampling.h"
+#include "rays/light_sampling.h"
+#include "rays/occluder_scene.h"
 #include "rig/surface_irradiance.h"
 
 namespace skinglow {
 namespace {
 
-constexpr int most_samples = 4096;
-/// What a lamp would bring only weighs places against one another.
+constexpr int max_samples = 4096;
+/// Relative error of the irradiance, which only weighs points against one another.
 constexpr double weight_tolerance = 1e-4;
 
-double fraction(double value) {
+double fractional_part(double value) {
     return value - std::floor(value);
 }
 
-/// Points of the unit square: the rank-1 lattice of the golden ratio, shifted by the place's own member of
-/// the R2 sequence (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018), whose base
-/// is the real root of x^3 = x + 1.
+/// Points of the unit square: the rank-1 lattice of the golden ratio, shifted by the point's own member of the R2
+/// sequence (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018), whose base is the real
+/// root of x^3 = x + 1.
 struct ShiftedLattice {
     double shift_u, shift_v;
     int count;
 
-    ShiftedLattice(std::size_t place, int samples) : count(samples) {
+    ShiftedLattice(std::size_t point, int samples) : count(samples) {
         constexpr double plastic = 1.32471795724474602596;
-        const auto n = static_cast<double>(place);
-        shift_u = fraction(n / plastic);
-        shift_v = fraction(n / plastic / plastic);
+        const auto n = static_cast<double>(point);
+        shift_u = fractional_part(n / plastic);
+        shift_v = fractional_part(n / plastic / plastic);
     }
-    double u(int i) const { return fraction((i + 0.5) / count + shift_u); }
+    double u(int i) const { return fractional_part((i + 0.5) / count + shift_u); }
     double v(int i) const {
         constexpr double golden = 0.61803398874989484820;
-        return fraction(i * golden + shift_v);
+        return fractional_part(i * golden + shift_v);
     }
 };
 
-struct Scene {
-    const Occluders& occluders;
-    std::vector<TriangleRange> without;
+/// What is asked of one light at each point.
+struct Query {
+    const OccluderScene& scene;
+    std::vector<TriangleRange> excluded;
     int samples;
-};
 
-bool is_seen(const Scene& scene, const glm::dvec3& point, const LampSample& way) {
-    return !scene.occluders.between(point, way.direction, way.distance, scene.without);
-}
-
-/// Share of one lamp's light that arrives at a place where it would bring some.
-/// @param normal  unit
-double share_at(const Scene& scene, const PreparedLight& light, const glm::dvec3& point,
-                const glm::dvec3& normal, std::size_t place) {
-    if (is_sharp(light, point)) {
-        const double away =
-            light.kind() == LightKind::sun ? std::numeric_limits<double>::infinity() : light.distance(point);
-        return is_seen(scene, point, {light.to_light(point), away, 1.0}) ? 1.0 : 0.0;
+    bool sees(const glm::dvec3& point, const LightSample& ray) const {
+        return !scene.occluded(point, ray.direction, ray.distance, excluded);
     }
-    const ShiftedLattice lattice(place, scene.samples);
-    double all = 0;
-    double seen = 0;
-    LampSample highest{};
-    double height = -2;
-    for (int i = 0; i < scene.samples; ++i) {
-        const LampSample way = sample_lamp(light, point, normal, lattice.u(i), lattice.v(i));
-        const double cosine = glm::dot(way.direction, normal);
-        if (cosine > height) {
-            height = cosine;
-            highest = way;
+
+    /// Visible fraction of a light at a point where it has an effect.
+    /// @param normal  unit length
+    /// @param index   of the point, for its samples
+    double fraction(const PreparedLight& light, const glm::dvec3& point, const glm::dvec3& normal,
+                    std::size_t index) const {
+        if (is_sharp(light, point)) {
+            const bool is_sun = light.kind() == LightKind::sun;
+            const double distance =
+                is_sun ? std::numeric_limits<double>::infinity() : light.distance(point);
+            return sees(point, {light.to_light(point), distance, 1.0}) ? 1.0 : 0.0;
         }
-        const double weight = std::max(0.0, cosine) * way.emission;
-        if (weight == 0.0) continue;
-        all += weight;
-        if (is_seen(scene, point, way)) seen += weight;
+        const ShiftedLattice lattice(index, samples);
+        double all = 0;
+        double seen = 0;
+        LightSample highest{};
+        double highest_cosine = -2;
+        for (int i = 0; i < samples; ++i) {
+            const LightSample ray = sample_light(light, point, normal, lattice.u(i), lattice.v(i));
+            const double cosine = glm::dot(ray.direction, normal);
+            if (cosine > highest_cosine) {
+                highest_cosine = cosine;
+                highest = ray;
+            }
+            const double weight = std::max(0.0, cosine) * ray.emission;
+            if (weight == 0.0) continue;
+            all += weight;
+            if (sees(point, ray)) seen += weight;
+        }
+        // A sliver of the light between the samples: the ray highest above the horizon stands for it.
+        if (all == 0.0) return sees(point, highest) ? 1.0 : 0.0;
+        return std::min(1.0, seen / all);
     }
-    // A sliver of light between the samples: the way highest above the horizon stands for it.
-    if (all == 0.0) return is_seen(scene, point, highest) ? 1.0 : 0.0;
-    return std::min(1.0, seen / all);
-}
+};
 
 void validate(const VisibilityOptions& options) {
-    if (options.samples < 1 || options.samples > most_samples) {
-        refuse_argument("samples", std::to_string(options.samples), "1 to " + std::to_string(most_samples));
-    }
+    if (options.samples < 1 || options.samples > max_samples)
+        refuse_argument("samples", std::to_string(options.samples), "1 to " + std::to_string(max_samples));
     if (options.threads < 0) refuse_argument("threads", std::to_string(options.threads), "0 (all) or more");
 }
 
-/// Mean of a column of shares, each counted by its weight.
-double weighted_mean(std::span<const double> shares, std::span<const double> weights, std::size_t column,
+/// Weighted mean of a column; 1 where all weights are 0.
+double weighted_mean(std::span<const double> values, std::span<const double> weights, std::size_t column,
                      std::size_t columns) {
     double largest = 0;
     for (std::size_t i = column; i < weights.size(); i += columns) largest = std::max(largest, weights[i]);
@@ -100,7 +102,7 @@ double weighted_mean(std::span<const double> shares, std::span<const double> wei
     double sum = 0;
     double total = 0;
     for (std::size_t i = column; i < weights.size(); i += columns) {
-        sum += weights[i] / largest * shares[i];
+        sum += weights[i] / largest * values[i];
         total += weights[i] / largest;
     }
     return std::min(1.0, sum / total);
@@ -108,12 +110,13 @@ double weighted_mean(std::span<const double> shares, std::span<const double> wei
 
 }  // namespace
 
-VisibleShare visible_share(const Occluders& occluders, std::span<const Light> lights,
-                           std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals,
-                           const VisibilityOptions& options) {
+VisibleFraction visible_fraction(const Occluders& occluders, std::span<const Light> lights,
+                                 std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals,
+                                 const VisibilityOptions& options) {
     validate(options);
     require_places(points, normals);
-    const Scene scene{occluders, occluders.triangles_of(options.without), options.samples};
+    const OccluderScene& scene = occluders.scene();
+    const Query query{scene, scene.triangles_of(options.excluded), options.samples};
     std::vector<PreparedLight> prepared;
     prepared.reserve(lights.size());
     for (const Light& light : lights) {
@@ -121,25 +124,23 @@ VisibleShare visible_share(const Occluders& occluders, std::span<const Light> li
         prepared.emplace_back(light);
     }
     const std::size_t columns = lights.size();
-    VisibleShare result{std::vector<double>(points.size() * columns, 1.0), std::vector<double>(columns, 1.0)};
-    if (occluders.triangles() == 0) return result;
-    std::vector<double> brought(result.at_points.size(), 0.0);
-    for_each_block(brought.size(), options.threads,
-                   [&](std::size_t begin, std::size_t end) {
-                       for (std::size_t i = begin; i < end; ++i) {
-                           const std::size_t place = i / columns;
-                           const std::size_t lamp = i % columns;
-                           if (!is_on(lights[lamp]) || normals[place] == glm::dvec3(0.0)) continue;
-                           const glm::dvec3 normal = unit(normals[place]);
-                           brought[i] = prepared[lamp].irradiance(points[place], normal, weight_tolerance);
-                           if (brought[i] > 0.0)
-                               result.at_points[i] =
-                                   share_at(scene, prepared[lamp], points[place], normal, place);
-                       }
-                   },
-                   {});
+    VisibleFraction result{std::vector<double>(points.size() * columns, 1.0),
+                           std::vector<double>(columns, 1.0)};
+    if (scene.triangles() == 0) return result;
+    std::vector<double> irradiance(result.at_points.size(), 0.0);
+    const auto work = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::size_t p = i / columns;
+            const std::size_t k = i % columns;
+            if (!is_on(lights[k]) || normals[p] == glm::dvec3(0.0)) continue;
+            const glm::dvec3 normal = unit(normals[p]);
+            irradiance[i] = prepared[k].irradiance(points[p], normal, weight_tolerance);
+            if (irradiance[i] > 0.0) result.at_points[i] = query.fraction(prepared[k], points[p], normal, p);
+        }
+    };
+    for_each_block(irradiance.size(), options.threads, work, {});
     for (std::size_t k = 0; k < columns; ++k)
-        result.mean[k] = weighted_mean(result.at_points, brought, k, columns);
+        result.mean[k] = weighted_mean(result.at_points, irradiance, k, columns);
     return result;
 }
 

@@ -242,7 +242,7 @@ def check_against_cycles(work):
         between.hide_render = False
         shadowed = rendered_irradiance(work, scene)[0]
         read = occlusion_light(obj)
-        share = scene_of_rays.visible_share([read], np.zeros((1, 3)), [[0.0, 0.0, 1.0]], samples=4096).mean[0]
+        share = scene_of_rays.visible_fraction([read], np.zeros((1, 3)), [[0.0, 0.0, 1.0]], samples=4096).mean[0]
         bpy.data.objects.remove(obj)
         assert 0.2 < share < 0.95, (name, share)
         result[name] = (shadowed / free, share)

@@ -1,7 +1,6 @@
-#include "povray/povray_include.h"
-
 #include <algorithm>
 #include <iterator>
+#include <skinglow/povray.h>
 #include <utility>
 
 #include "numerics/argument_check.h"
@@ -86,9 +85,9 @@ std::string scene_text(const PovrayScene& scene, bool lit) {
 
 void validate(const PovrayScene& scene) {
     if (has_picture(scene)) povray_image_keyword("surface image", scene.surface->image);
-    validate(scene.mesh, scene.surface);
-    validate(scene.camera);
-    validate(scene.lut);
+    detail::validate(scene.mesh, scene.surface);
+    detail::validate(scene.camera);
+    detail::validate(scene.lut);
     require_not_negative("background", scene.background);
     for (const Light& light : scene.lights) validate(light);
     if (scene.surface) require_not_negative("surface color", scene.surface->color);
@@ -98,6 +97,7 @@ void validate(const PovrayScene& scene) {
 
 std::map<std::string, std::string> povray_files(const PovrayScene& scene) {
     validate(scene);
+    const MeshView geometry = scene.mesh.geometry;
     std::vector<Light> lights_on;
     std::copy_if(scene.lights.begin(), scene.lights.end(), std::back_inserter(lights_on), is_on);
     const bool lit = scene.surface && !lights_on.empty();
@@ -107,7 +107,7 @@ std::map<std::string, std::string> povray_files(const PovrayScene& scene) {
                                                 {"mesh.inc", povray_mesh_text(scene)},
                                                 {"lut.inc", povray_lut_text(scene.lut, lights_on)},
                                                 {"skinglow.inc", povray_macros()}};
-    if (lit) files["lights.inc"] = povray_lights_text(lights_on, bounds_of(scene.mesh));
+    if (lit) files["lights.inc"] = povray_lights_text(lights_on, *box_of(std::span(&geometry, 1)));
     return files;
 }
 

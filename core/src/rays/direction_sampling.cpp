@@ -1,15 +1,15 @@
-#include "rays/cone_sampling.h"
+#include "rays/direction_sampling.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
-namespace skinglow {
+namespace skinglow::detail {
 
 namespace {
 
-/// pi (3 - sqrt 5): turning by this between points keeps every ring apart from the last.
+/// pi (3 - sqrt 5): an angle between successive points that keeps every ring apart from the last.
 const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
 
 glm::dvec3 on_spiral(int index, double radius, double height) {
@@ -22,8 +22,7 @@ std::vector<glm::dvec3> cone_directions(int count, double half_angle) {
     const double cap_height = 1.0 - std::cos(half_angle);
     std::vector<glm::dvec3> directions(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
-        // Equal steps of height are equal areas of the sphere; the root makes the density fall to 0 along
-        // them.
+        // Equal steps of height are equal areas of the sphere; the root makes the density fall to 0 along them.
         const double depth = cap_height * (1.0 - std::sqrt(1.0 - static_cast<double>(i) / count));
         directions[static_cast<std::size_t>(i)] = on_spiral(i, std::sqrt(depth * (2.0 - depth)), 1.0 - depth);
     }
@@ -34,9 +33,9 @@ std::vector<glm::dvec3> cosine_directions(int count) {
     std::vector<glm::dvec3> directions(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
         // Equal areas of the disc below (Nusselt's analogue).
-        const double squared_radius = (i + 0.5) / count;
+        const double radius_sq = (i + 0.5) / count;
         directions[static_cast<std::size_t>(i)] =
-            on_spiral(i, std::sqrt(squared_radius), std::sqrt(1 - squared_radius));
+            on_spiral(i, std::sqrt(radius_sq), std::sqrt(1 - radius_sq));
     }
     return directions;
 }
@@ -54,12 +53,12 @@ double interquartile_mean(std::span<WeightedValue> samples) {
     double inside = 0;
     for (const WeightedValue& sample : samples) {
         const double above = below + sample.weight;
-        const double share = std::max(0.0, std::min(above, high) - std::max(below, low));
-        sum += share * sample.value;
-        inside += share;
+        const double weight = std::max(0.0, std::min(above, high) - std::max(below, low));
+        sum += weight * sample.value;
+        inside += weight;
         below = above;
     }
     return sum / inside;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

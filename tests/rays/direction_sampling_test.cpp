@@ -1,4 +1,4 @@
-#include "rays/cone_sampling.h"
+#include "rays/direction_sampling.h"
 
 #include <gtest/gtest.h>
 

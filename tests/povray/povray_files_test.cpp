@@ -1,4 +1,4 @@
-#include "povray/povray_include.h"
+#include <skinglow/povray.h>
 
 #include <gtest/gtest.h>
 
@@ -20,8 +20,7 @@ namespace {
 /// One triangle before the paper's three lamps.
 PovrayScene triangle() {
     PovrayScene scene;
-    scene.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    scene.mesh.triangles = {{0, 1, 2}};
+    scene.mesh.geometry = TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
     scene.mesh.lut_u = {0.25, 0.5, 0.75};
     scene.lights = table1::lights();
     scene.lut.axis = LutAxis(4, 12.0);
@@ -55,9 +54,8 @@ TEST(PovrayFiles, SayWhatTheSceneHas) {
 
 TEST(PovrayFiles, CornerNormalsAndPictureCoordinatesAreWrittenOnceEach) {
     PovrayScene scene = triangle();
-    scene.mesh.positions.push_back({1, 1, 0});
+    scene.mesh.geometry = TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
     scene.mesh.lut_u.push_back(0.5);
-    scene.mesh.triangles.push_back({1, 3, 2});
     scene.mesh.corner_normals.assign(6, {0, 0, 1});
     scene.mesh.corner_normals[4] = {0, 0.6, 0.8};
     scene.mesh.corner_normals[5] = {0, 0, 0};  // as hosts give for triangles without area
@@ -74,7 +72,7 @@ TEST(PovrayFiles, CornerNormalsAndPictureCoordinatesAreWrittenOnceEach) {
 
 TEST(PovrayFiles, RefuseWhatPovrayCannotShow) {
     PovrayScene scene = triangle();
-    scene.mesh.positions[1].x = std::numeric_limits<double>::quiet_NaN();
+    scene.mesh.lut_u[1] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW(povray_files(scene), std::invalid_argument);
     scene = triangle();
     scene.mesh.vertex_normals.resize(3);
@@ -87,7 +85,7 @@ TEST(PovrayFiles, RefuseWhatPovrayCannotShow) {
     scene.lights[0].color.x = -1;
     EXPECT_THROW(povray_files(scene), std::invalid_argument);
     scene = triangle();
-    scene.camera.window_high = scene.camera.window_low;
+    scene.camera.window_max = scene.camera.window_min;
     EXPECT_THROW(povray_files(scene), std::invalid_argument);
 }
 
@@ -108,11 +106,11 @@ TEST(PovrayCamera, ProjectionAndFieldOfViewAgree) {
     set_projection(by_matrix, projection);
     set_field_of_view(by_angle, angle, glm::dvec2(0.1));
     for (int k = 0; k < 2; ++k) {
-        EXPECT_NEAR(by_matrix.window_low[k], by_angle.window_low[k], 1e-15);
-        EXPECT_NEAR(by_matrix.window_high[k], by_angle.window_high[k], 1e-15);
+        EXPECT_NEAR(by_matrix.window_min[k], by_angle.window_min[k], 1e-15);
+        EXPECT_NEAR(by_matrix.window_max[k], by_angle.window_max[k], 1e-15);
     }
     EXPECT_EQ(by_matrix.projection, PovrayProjection::perspective);
-    EXPECT_NEAR(by_angle.window_high.x - by_angle.window_low.x, 2 * std::tan(angle / 2), 1e-15);
+    EXPECT_NEAR(by_angle.window_max.x - by_angle.window_min.x, 2 * std::tan(angle / 2), 1e-15);
 }
 
 TEST(PovrayCamera, OrthographicProjection) {
@@ -121,8 +119,8 @@ TEST(PovrayCamera, OrthographicProjection) {
     camera.height = 200;
     PovrayCamera by_matrix = camera;
     set_orthographic(camera, 3.0, {0.25, 0});
-    EXPECT_EQ(camera.window_low, glm::dvec2(0, -3));  // a quarter of the longer side, 6, to the right
-    EXPECT_EQ(camera.window_high, glm::dvec2(3, 3));
+    EXPECT_EQ(camera.window_min, glm::dvec2(0, -3));  // a quarter of the longer side, 6, to the right
+    EXPECT_EQ(camera.window_max, glm::dvec2(3, 3));
     glm::dmat4 projection(1.0);
     projection[0][0] = 2.0 / 3.0;
     projection[1][1] = 1.0 / 3.0;
@@ -131,8 +129,8 @@ TEST(PovrayCamera, OrthographicProjection) {
     set_projection(by_matrix, projection);
     EXPECT_EQ(by_matrix.projection, PovrayProjection::orthographic);
     for (int k = 0; k < 2; ++k) {
-        EXPECT_NEAR(by_matrix.window_low[k], camera.window_low[k], 1e-15);
-        EXPECT_NEAR(by_matrix.window_high[k], camera.window_high[k], 1e-15);
+        EXPECT_NEAR(by_matrix.window_min[k], camera.window_min[k], 1e-15);
+        EXPECT_NEAR(by_matrix.window_max[k], camera.window_max[k], 1e-15);
     }
 }
 

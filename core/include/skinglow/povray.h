@@ -1,0 +1,151 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <map>
+#include <optional>
+#include <skinglow/mesh.h>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "light/light.h"
+#include "light/light_weights.h"
+#include "skin/base_lut.h"
+#include "skin/recolor.h"
+
+/// POV-Ray scenes of glowing skin, as text: world coordinates as Blender has them (right-handed, z up), one unit of
+/// length a meter for the lights, radians, linear Rec.709.
+///
+/// @code
+/// skinglow::PovrayScene scene;
+/// scene.mesh.geometry = skinglow::TriangleMesh(std::move(vertices), std::move(triangles));
+/// for (const double mm : skinglow::thickness(scene.mesh.geometry))
+///     scene.mesh.lut_u.push_back(scene.lut.axis.texel_scale() * mm + scene.lut.axis.texel_offset());
+/// scene.lut.base = skinglow::gray_entries(base);
+/// scene.lights = lights;
+/// skinglow::set_field_of_view(scene.camera, 0.7);
+/// for (const auto& [name, text] : skinglow::povray_files(scene)) std::ofstream(folder / name) << text;
+/// @endcode
+namespace skinglow {
+
+/// Triangles in world space. Vertices that no triangle uses are left out of the file.
+struct PovrayMesh {
+    std::string name = "skin";  ///< any text; becomes the SDL identifier Skinglow_Mesh_<name>
+    TriangleMesh geometry;      ///< at least one triangle
+    /// Image coordinate of each vertex in the lookup: axis.texel_scale() * thickness + axis.texel_offset(). It is
+    /// clamped to the centers of the first and the last texel on writing. Finite; as many as vertices.
+    std::vector<double> lut_u;
+    /// Smooth shading: one normal per vertex, or three per triangle, not both; none: flat. Finite; a normal of length
+    /// 0, as hosts give at triangles without area, becomes +z. Written only where the scene has a surface: glow alone
+    /// does not need them.
+    std::vector<glm::dvec3> vertex_normals;
+    std::vector<glm::dvec3> corner_normals;
+    /// Coordinates of the surface's picture, three per triangle, v up; needed only with PovraySurface::image.
+    std::vector<glm::dvec2> surface_uv;
+};
+
+enum class PovrayProjection { perspective, orthographic };
+
+/// A camera as Blender has it: it looks along its own -z, +x is right and +y up.
+struct PovrayCamera {
+    PovrayProjection projection = PovrayProjection::perspective;
+    glm::dmat4 matrix_world{1.0};  ///< camera to world, column vectors; its scale is ignored, as in Blender
+    /// What the picture covers: perspective, at distance 1 before the camera; orthographic, in scene units.
+    glm::dvec2 window_min{-0.36, -0.36};
+    glm::dvec2 window_max{0.36, 0.36};
+    std::uint32_t width = 512;   ///< pixels, 1 to 65535
+    std::uint32_t height = 512;  ///< pixels, 1 to 65535
+};
+
+/// Sets projection and window from the 4x4 projection matrix of the picture: sensor fit, shift and pixel aspect are
+/// all in it.
+/// @param projection  column vectors, as OpenGL and Blender's `camera.calc_matrix_camera(depsgraph, x=width,
+///                    y=height)` have it
+/// @throws std::invalid_argument where it is neither a perspective nor an orthographic projection
+void set_projection(PovrayCamera& camera, const glm::dmat4& projection);
+
+/// Sets a perspective window for square pixels.
+/// @param angle_x  full angle that the picture's width covers, radians, above 0 and below pi
+/// @param shift    of the picture, as a fraction of its longer side, as Blender has it
+void set_field_of_view(PovrayCamera& camera, double angle_x, const glm::dvec2& shift = glm::dvec2(0.0));
+
+/// Sets an orthographic window for square pixels.
+/// @param width  that the picture covers, scene units, above 0
+/// @param shift  as set_field_of_view
+void set_orthographic(PovrayCamera& camera, double width, const glm::dvec2& shift = glm::dvec2(0.0));
+
+/// The brightness of a gray base lookup, as PovrayLut::base wants it.
+/// @throws std::invalid_argument naming the entry where a matrix is not a multiple of the identity
+std::vector<double> gray_entries(const BaseLut& base);
+
+enum class LutMode { existing, paper, physical };
+
+/// "existing", "paper" or "physical"; lut_mode throws std::invalid_argument on any other.
+std::string_view to_text(LutMode mode);
+LutMode lut_mode(std::string_view name);
+
+/// Where the glow takes its colors from.
+enum class PovrayGlow {
+    image,  ///< the float EXR `image`, one row; POV-Ray 3.7 reads it as half floats (11 bits)
+    macros  ///< computed by skinglow.inc from the base and the lights, in doubles; modes existing and paper
+};
+
+struct PovrayLut {
+    LutMode mode = LutMode::paper;
+    LutAxis axis{256, 12.0};
+    PovrayGlow glow = PovrayGlow::macros;
+    std::string image;  ///< of PovrayGlow::image: EXR in the scene's folder, name without a folder
+    std::vector<double> base;  ///< mode paper by macros: the gray base lookup, axis.size() entries, 0 or more
+    glm::dvec3 blood_weight = paper_blood_weight;  ///< B of Eq. 1
+    AttenuationCoefficients coefficients;          ///< of Eq. 2
+    glm::dvec3 point{0.0};  ///< world point that the distances of Eq. 2 are measured to
+    double strength = 1.0;  ///< radiance shown = strength * table; 0 or more
+};
+
+/// A matt surface under the glow.
+struct PovraySurface {
+    glm::dvec3 color{0.8};  ///< linear Rec.709, 0 or more; multiplies the picture
+    /// Picture in the scene's folder, by extension png, jpg, tif, exr or hdr; empty: one color. With a
+    /// picture the scene is rendered twice and summed: mesh2 has one set of uv coordinates (docs/povray.md).
+    std::string image;
+};
+
+struct PovrayScene {
+    PovrayMesh mesh;
+    PovrayCamera camera;
+    std::vector<Light> lights;  ///< those that are off are left out
+    PovrayLut lut;
+    std::optional<PovraySurface> surface;  ///< none: only the glow, no light_source is needed
+    glm::dvec3 background{0.0};  ///< linear Rec.709 radiance, 0 or more
+};
+
+/// The files of a POV-Ray 3.7 scene, by name; only those that it uses. Text alone: whoever calls writes them, all into
+/// one folder, besides the pictures that the scene names. Rendered from within the folder: POV-Ray's Debian set-up
+/// lets it read nothing outside of the working directory.
+///
+/// | file         | holds                                                                                          |
+/// |--------------|------------------------------------------------------------------------------------------------|
+/// | scene.ini    | size and options: `povray scene.ini` gives scene.exr, `povray scene.ini +OFILE` another name   |
+/// | scene.pov    | the skin; with a picture on the surface, `Declare=Skinglow_Part=1` renders the surface and     |
+/// |              | `Declare=Skinglow_Part=2` the glow, which are to be added                                      |
+/// | lut.inc      | axis and strength; the EXR's name, or base lookup, weights, coefficients and lights as values  |
+/// | mesh.inc     | mesh2                                                                                          |
+/// | camera.inc   | location, direction, right, up                                                                 |
+/// | lights.inc   | a light_source for each light that is on; not without a surface or without lights              |
+/// | skinglow.inc | the macros (povray_macros/skinglow.inc)                                                        |
+///
+/// Numbers are finite and have all digits that they need to be read back as the same double. The same scene gives the
+/// same text.
+/// @throws std::invalid_argument naming the field, the value and what is allowed, on wrong sizes, non-finite numbers,
+///         file names that POV-Ray cannot take, a light beyond what doubles hold, or a mode that the macros do not
+///         compute
+std::map<std::string, std::string> povray_files(const PovrayScene& scene);
+
+/// The text of povray_macros/skinglow.inc.
+const std::string& povray_macros();
+
+}  // namespace skinglow

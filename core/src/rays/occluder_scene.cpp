@@ -1,0 +1,133 @@
+#include "rays/occluder_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+#include <string>
+
+#include "geometry/vector.h"
+#include "numerics/argument_check.h"
+
+namespace skinglow {
+namespace detail {
+namespace {
+
+/// Left out at the ends of a ray, relative to their coordinates: some ten roundings of single precision.
+constexpr double end_tolerance = 1e-6;
+/// The same at the very origin, in units of the scene.
+constexpr double min_end = 1e-12;
+/// Added to the box of all triangles, for what rounding moves a corner.
+constexpr double box_margin = 1e-6;
+
+/// Distances along a ray; empty where `from` is above `to`.
+struct Interval {
+    double from;
+    double to;
+};
+
+/// The part of a ray that lies in a box.
+Interval inside_box(const glm::dvec3& start, const glm::dvec3& direction, const Box& box) {
+    Interval inside{0.0, std::numeric_limits<double>::infinity()};
+    for (int k = 0; k < 3; ++k) {
+        if (direction[k] == 0.0) {
+            if (start[k] < box.min[k] || start[k] > box.max[k]) return {1.0, 0.0};
+            continue;
+        }
+        const double a = (box.min[k] - start[k]) / direction[k];
+        const double b = (box.max[k] - start[k]) / direction[k];
+        inside.from = std::max(inside.from, std::min(a, b));
+        inside.to = std::min(inside.to, std::max(a, b));
+    }
+    return inside;
+}
+
+}  // namespace
+
+OccluderScene::OccluderScene(std::span<const MeshView> meshes, const std::optional<glm::dvec3>& origin) {
+    if (origin) require_finite("origin", *origin);
+    std::size_t total = 0;
+    for (const MeshView& mesh : meshes) total += mesh.triangles().size();
+    if (total > std::numeric_limits<std::uint32_t>::max() / 3)
+        refuse_argument("number of triangles", std::to_string(total), "a third of what 32 bits can count");
+    fit(meshes, origin);
+    std::vector<glm::dvec3> points;
+    std::vector<glm::uvec3> corners;
+    for (const MeshView& mesh : meshes) {
+        const auto begin = static_cast<std::uint32_t>(corners.size());
+        const auto first = static_cast<std::uint32_t>(points.size());
+        if (scale_ > 0.0) {
+            const auto vertices = mesh.vertices();
+            // A vertex that no triangle uses may lie anywhere; it only has to be a number.
+            for (const glm::dvec3& v : vertices) points.push_back(glm::clamp(local(v), -2.0, 2.0));
+            for (const glm::uvec3& t : mesh.triangles()) {
+                if (triangle_normal(vertices[t.x], vertices[t.y], vertices[t.z]) != glm::dvec3(0.0))
+                    corners.push_back(t + first);
+            }
+        }
+        ranges_.push_back({begin, static_cast<std::uint32_t>(corners.size())});
+    }
+    if (!corners.empty()) triangles_ = std::make_unique<EmbreeTriangles>(points, corners);
+}
+
+void OccluderScene::fit(std::span<const MeshView> meshes, const std::optional<glm::dvec3>& origin) {
+    const std::optional<Box> box = box_of(meshes);
+    if (!box) return;
+    origin_ = origin ? *origin : box->center();
+    // With halves, because the difference of two huge coordinates may overflow where theirs does not.
+    scale_ = 2.0 * std::max(max_abs(0.5 * box->min - 0.5 * origin_), max_abs(0.5 * box->max - 0.5 * origin_));
+    if (!std::isfinite(scale_)) {
+        refuse_argument("meshes", "as far as " + to_text(box->max) + " from " + to_text(origin_),
+                        "distances below the largest double");
+    }
+    if (scale_ > 0.0) bounds_ = {local(box->min) - box_margin, local(box->max) + box_margin};
+}
+
+glm::dvec3 OccluderScene::local(const glm::dvec3& point) const {
+    return (0.5 * point - 0.5 * origin_) / (0.5 * scale_);
+}
+
+std::vector<TriangleRange> OccluderScene::triangles_of(std::span<const std::size_t> meshes) const {
+    std::vector<TriangleRange> found;
+    for (const std::size_t mesh : meshes) {
+        if (mesh >= ranges_.size()) {
+            refuse_argument("excluded mesh", std::to_string(mesh),
+                            "below the number of meshes (" + std::to_string(ranges_.size()) + ")");
+        }
+        found.push_back(ranges_[mesh]);
+    }
+    return found;
+}
+
+bool OccluderScene::occluded(const glm::dvec3& point, const glm::dvec3& direction, double distance,
+                             std::span<const TriangleRange> excluded) const {
+    if (!triangles_) return false;
+    const glm::dvec3 start = local(point);
+    // So far off that all meshes together are a point to it.
+    if (!std::isfinite(start.x) || !std::isfinite(start.y) || !std::isfinite(start.z)) return false;
+    const Interval inside = inside_box(start, direction, bounds_);
+    const double local_distance = distance / scale_;
+    const double from = std::max({inside.from, end_tolerance * max_abs(start), min_end});
+    const double to = std::min(
+        inside.to, local_distance - end_tolerance * (local_distance + max_abs(start)) - min_end);
+    if (!(from < to)) return false;
+    // A ray from outside begins at the box: over a longer distance single precision would lose the box.
+    const glm::dvec3 moved = start + inside.from * direction;
+    return triangles_->occluded(moved, direction, static_cast<float>(from - inside.from),
+                                static_cast<float>(to - inside.from), excluded);
+}
+
+}  // namespace detail
+
+Occluders::Occluders(std::span<const MeshView> meshes, const std::optional<glm::dvec3>& origin)
+    : scene_(std::make_shared<detail::OccluderScene>(meshes, origin)) {}
+
+std::size_t Occluders::meshes() const {
+    return scene_->meshes();
+}
+
+std::size_t Occluders::triangles() const {
+    return scene_->triangles();
+}
+
+}  // namespace skinglow
