@@ -92,6 +92,7 @@ def follow_a_blocker(sb):
     It would shadow itself if Embree had no occlusion filters, and fail if the modules did not share the type of lights.
     """
     clear_scene()
+    bpy.context.scene.world = None  # its light passes no wall
     obj, light = add_ball(), add_light(1.0)
     sb.make_skin(obj, thickness=[3.0] * len(obj.data.vertices), mode="physical")
     found = {"off": shown_by(sb, obj, light)}
@@ -140,7 +141,7 @@ def refusals(sg):
     return {
         "attenuation": refusal(lambda: sg.attenuation(-1.0)),
         "file": refusal(lambda: sg.read_light_rig("/no/such/rig.json")),
-        "type in _core": refusal(lambda: sg.attenuation("far")),
+        "type in _core": refusal(lambda: sg.six_gaussian_base("many")),
         "thickness": refusal(lambda: sg.thickness([(0, 0, 0)], [(0, 1, 2)])),
         "type in _rays": refusal(lambda: sg.thickness(*triangle, rays="many")),
         "raised by progress": refusal(lambda: sg.thickness(*triangle, progress=lambda done: 1 / 0)),

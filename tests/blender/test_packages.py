@@ -28,7 +28,7 @@ SECONDS = 120
 REFUSALS = {
     "attenuation": ("ValueError", "distance"),
     "file": ("ValueError", "rig.json"),
-    "type in _core": ("TypeError", "attenuation"),
+    "type in _core": ("TypeError", "six_gaussian_base"),
     "thickness": ("ValueError", "triangles"),
     "type in _rays": ("TypeError", "thickness"),
     "raised by progress": ("ZeroDivisionError", "division"),
