@@ -80,7 +80,7 @@ The order of the lights does not matter beyond the last bits: the sum is compens
 }
 
 void bind_tables(py::module_& m) {
-    py::class_<BaseLut>(m, "BaseLut", R"(What thin skin does to light, before any lamp is known.
+    py::class_<BaseLut>(m, "BaseLut", R"(What thin skin does to light, before any light is known.
 
 values            (size,) brightness, finite, 0 or more; or (size, 3, 3) matrices M(d) on linear Rec.709, finite
 max_thickness_mm  thickness of the last entry, above 0; entry i stands at i / (size - 1) of it
@@ -114,7 +114,13 @@ scale * thickness_mm + offset. Clamp the image at its ends ("extend").)")
     m.def(
         "recolor",
         [](const BaseLut& base, py::handle weight) {
-            return numpy::from_vec3s(recolor(base, numpy::to_vec3(weight, "weight")));
+            const glm::dvec3 by = numpy::to_vec3(weight, "weight");
+            std::vector<glm::dvec3> colors;
+            {
+                const py::gil_scoped_release released;
+                colors = recolor(base, by);
+            }
+            return numpy::from_vec3s(std::move(colors));
         },
         "base"_a, "weight"_a,
         R"(The recolored table M(d) @ weight, shape (size, 3), linear Rec.709; values above 1 are kept.
@@ -124,17 +130,23 @@ weight  (3,), finite. Raises ValueError on bad input or where a product is beyon
     m.def(
         "six_gaussian_lookup",
         [](std::size_t size, double max_thickness_mm) {
-            return numpy::from_vec3s(six_gaussian_lookup({size, max_thickness_mm}));
+            std::vector<glm::dvec3> colors;
+            {
+                const py::gil_scoped_release released;
+                colors = six_gaussian_lookup({size, max_thickness_mm});
+            }
+            return numpy::from_vec3s(std::move(colors));
         },
-        "size"_a = 256, "max_thickness_mm"_a = 12.0,
+        "size"_a = default_lut_size, "max_thickness_mm"_a = default_max_thickness_mm,
         R"(The existing method: a fixed reddish lookup, shape (size, 3), linear Rec.709, by the six-Gaussian skin profile
-(d'Eon and Luebke, GPU Gems 3, 2007, ch. 14): sum of w_i exp(-d^2 / v_i). It knows no lamp.)");
+(d'Eon and Luebke, GPU Gems 3, 2007, ch. 14): sum of w_i exp(-d^2 / v_i). It knows no lights.)");
     m.def(
         "six_gaussian_base",
         [](std::size_t size, double max_thickness_mm) {
             return six_gaussian_base({size, max_thickness_mm});
         },
-        "size"_a = 256, "max_thickness_mm"_a = 12.0,
+        "size"_a = default_lut_size, "max_thickness_mm"_a = default_max_thickness_mm,
+        py::call_guard<py::gil_scoped_release>(),
         "The default gray base lookup BLL of mode `paper`: the Rec.709 luminance of six_gaussian_lookup.");
     m.attr("PAPER_BLOOD_WEIGHT") =
         py::make_tuple(paper_blood_weight.x, paper_blood_weight.y, paper_blood_weight.z);

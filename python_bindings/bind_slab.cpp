@@ -49,11 +49,12 @@ std::string result_text(const SlabResult& self) {
     return text + "))";
 }
 
-SlabResult slab(py::handle layers, py::handle incidence, double n_above, double n_below, int streams) {
+SlabResult slab_of_sequence(py::handle layers, py::handle incidence, double n_above, double n_below,
+                            int streams) {
     const std::vector<Layer> stack = to_layers(layers);
     const Incidence light = to_incidence(incidence);
     const py::gil_scoped_release released;
-    return solve_slab(stack, light, n_above, n_below, streams);
+    return slab(stack, light, n_above, n_below, streams);
 }
 
 py::dict directional(py::handle layers, double n_above, double n_below, int streams) {
@@ -95,7 +96,7 @@ py::array curve_transmittance(const ThicknessCurve& self, py::handle thickness_m
 void bind_slab(py::module_& m) {
     py::class_<Layer>(m, "Layer", R"(A plane layer of turbid medium; scattering follows Henyey and Greenstein.
 
-refractive_index  1 or more
+refractive_index  1 to 100
 absorption        absorption coefficient, 1/mm, 0 or more
 scattering        scattering coefficient, 1/mm, 0 or more
 anisotropy        mean cosine of the scattering angle, above -1 and below 1
@@ -120,7 +121,7 @@ Values are checked where a layer is used, so that the message can say which laye
     py::class_<SlabResult>(m, "SlabResult",
                            "What becomes of light on a slab, as fractions of the incident flux.")
         .def_readonly("reflectance", &SlabResult::reflectance,
-                      "Leaves above, the surface's mirror image included.")
+                      "Leaves above, the specular reflection at the surface included.")
         .def_readonly("transmittance", &SlabResult::transmittance,
                       "Leaves below, the unscattered part included.")
         .def_readonly("unscattered", &SlabResult::unscattered, "Leaves below without having been scattered.")
@@ -131,14 +132,15 @@ Values are checked where a layer is used, so that the message can say which laye
         .def("__repr__", &result_text);
 
     m.def(
-        "slab", &slab, "layers"_a, "incidence"_a = "normal", "n_above"_a = 1.0, "n_below"_a = 1.0,
+        "slab", &slab_of_sequence, "layers"_a, "incidence"_a = "normal", "n_above"_a = 1.0, "n_below"_a = 1.0,
         "streams"_a = 16,
         R"(Reflectance, transmittance and absorption of plane layers, top to bottom: the transport equation, solved.
 
 layers            sequence of Layer
 incidence         "normal", "diffuse", or the cosine to the normal, above 0 and at most 1
-n_above, n_below  refractive index outside, 1 or more
-streams           directions per hemisphere, even, 4 to 128; docs/accuracy.md says what each buys)");
+n_above, n_below  refractive index outside, 1 to 100
+streams           directions per hemisphere, even, 4 to 128; docs/accuracy.md says what each buys
+Raises ValueError naming what is wrong, also where the streams are too few, so that a fraction would be negative.)");
 
     m.def(
         "directional_transmittance", &directional, "layers"_a, "n_above"_a = 1.0, "n_below"_a = 1.0,

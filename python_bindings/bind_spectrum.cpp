@@ -54,7 +54,8 @@ void bind_spectrum(py::module_& m) {
         "line_spectrum",
         [](double center, double fwhm) { return from_spectrum(line_spectrum(center, fwhm)); }, "center_nm"_a,
         "fwhm_nm"_a,
-        "A lamp of one Gaussian line, total power 1, shape (81,); center 380 to 780 nm, width above 0 to 400 "
+        "A light of one Gaussian line, total power 1, shape (81,); center 380 to 780 nm, width above 0 to "
+        "400 "
         "nm.");
     m.def(
         "tabulated_spectrum",
@@ -66,16 +67,16 @@ void bind_spectrum(py::module_& m) {
                                    {values.data(), static_cast<std::size_t>(values.size())}));
         },
         "wavelength_nm"_a, "power"_a,
-        "A measured lamp carried to the 5 nm grid with its power kept, shape (81,); 0 outside the table.");
+        "A measured light resampled to the 5 nm grid with its power kept, shape (81,); 0 outside the table.");
     m.def(
         "spectral_color",
         [](py::handle spectrum, const py::object& transmittance) {
-            const Spectrum lamp = to_spectrum(spectrum, "spectrum");
-            if (transmittance.is_none()) return numpy::from_vec3(spectral_color(lamp));
-            return numpy::from_vec3(spectral_color(lamp, to_spectrum(transmittance, "transmittance")));
+            const Spectrum light = to_spectrum(spectrum, "spectrum");
+            if (transmittance.is_none()) return numpy::from_vec3(spectral_color(light));
+            return numpy::from_vec3(spectral_color(light, to_spectrum(transmittance, "transmittance")));
         },
         "spectrum"_a, "transmittance"_a = py::none(),
-        R"(Linear Rec.709 of a lamp scaled to luminance 1, shape (3,), or of its light behind a filter on the same scale.
+        R"(Linear Rec.709 of a light scaled to luminance 1, shape (3,), or of its light behind a filter on the same scale.
 
 spectrum, transmittance  (81,) at SAMPLE_WAVELENGTHS_NM. May lie outside the gamut (negative).)");
     m.def(

@@ -10,7 +10,7 @@
 #include "bind_incidence.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
-#include "skin/diffusion_approximation.h"
+#include "radiometry/angular_weight.h"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -118,82 +118,62 @@ std::vector<double> one_dimension(py::handle values, const char* name) {
     return {array.data(), array.data() + array.size()};
 }
 
-py::array_t<double> transmittance_of_arrays(const DescribedTissue& self, py::handle thickness,
-                                            py::handle wavelength, py::handle incidence, int streams) {
+py::array transmittance_of_arrays(const DescribedTissue& self, py::handle thickness, py::handle wavelength,
+                                  py::handle incidence, int streams, int threads) {
     const auto thickness_mm = one_dimension(thickness, "thickness_mm");
     const auto wavelength_nm = one_dimension(wavelength, "wavelength_nm");
-    std::vector<double> result =
-        transmittance(self.tissue, thickness_mm, wavelength_nm, to_incidence(incidence), streams);
+    const Incidence light = to_incidence(incidence);
+    std::vector<double> result;
+    {
+        const py::gil_scoped_release released;
+        result = transmittance(self.tissue, thickness_mm, wavelength_nm, light, streams, threads);
+    }
     return numpy::from_doubles(std::move(result))
         .reshape(
             {static_cast<py::ssize_t>(thickness_mm.size()), static_cast<py::ssize_t>(wavelength_nm.size())});
 }
 
 void bind_skin_lut(py::module_& m) {
-    py::class_<SkinLutReport>(m, "SkinLutReport", R"(What base_lut chose, and how far off it thinks it is.
+    using Released = py::call_guard<py::gil_scoped_release>;
+    py::class_<SkinLutReport>(m, "SkinLutReport", R"(How base_lut solved a table, and how far off it is.
 
-All errors are in one norm: at each entry and for each primary, the largest difference in that column of M over the
+The error is in one norm: at each entry and for each primary, the largest difference in that column of M over the
 largest number of the column (or over 1e-6 where skin lets even less through); of all these the largest.)")
-        .def_readonly("streams", &SkinLutReport::streams)
-        .def_property_readonly(
-            "thickness_nodes_mm",
-            [](const SkinLutReport& self) {
-                return numpy::from_doubles(std::vector<double>(self.thickness_nodes_mm));
-            },
-            "Where transmittance was solved; between, its logarithm runs along a monotone cubic.")
-        .def_property_readonly(
-            "wavelengths_nm",
-            [](const SkinLutReport& self) {
-                return numpy::from_doubles(std::vector<double>(self.wavelengths_nm));
-            },
-            "Where transmittance was solved; between, diffusion theory is corrected from these.")
-        .def_readonly("pairs_solved", &SkinLutReport::pairs_solved, "Wavelength and thickness pairs.")
-        .def_readonly("pairs_skipped", &SkinLutReport::pairs_skipped, "Pairs left out as too dark to matter.")
-        .def_readonly("stream_error", &SkinLutReport::stream_error)
-        .def_readonly("node_error", &SkinLutReport::node_error)
-        .def_readonly("wavelength_error", &SkinLutReport::wavelength_error)
-        .def_readonly("estimated_error", &SkinLutReport::estimated_error, "Bound on the error of the table.");
+        .def_readonly("streams", &SkinLutReport::streams, "Directions per hemisphere.")
+        .def_readonly("estimated_error", &SkinLutReport::estimated_error,
+                      "Bound on the error of the table, from that of random skins at these streams.");
     m.def(
         "base_lut",
-        [](const DescribedTissue& self, std::size_t size, double max_thickness_mm, double tolerance) {
-            return base_lut(self.tissue, size, max_thickness_mm, tolerance);
-        },
-        "tissue"_a, "size"_a = 256, "max_thickness_mm"_a = 12.0, "tolerance"_a = 1e-3,
-        R"(The base lookup of mode `physical`: M(d) of skin lit diffusely from behind, a BaseLut.
+        [](const DescribedTissue& self, std::size_t size, double max_thickness_mm, double tolerance,
+           int threads) { return base_lut(self.tissue, size, max_thickness_mm, tolerance, threads); },
+        "tissue"_a, "size"_a = default_lut_size, "max_thickness_mm"_a = default_max_thickness_mm,
+        "tolerance"_a = default_lut_tolerance, "threads"_a = 0, Released(),
+        R"(The base lookup table of mode `physical`: M(d) of skin lit diffusely from behind, a BaseLut.
 
 recolor(base_lut(tissue), E), with E the irradiance on the far side in W/m^2, is the exitance; over pi, the radiance.
 size, max_thickness_mm  as for BaseLut
-tolerance               largest error in SkinLutReport's norm, 1e-6 to 0.1; streams, thicknesses and wavelengths to
-                        solve are chosen to meet it
+tolerance               largest error in SkinLutReport's norm, 1e-6 to 0.1; the streams are chosen to meet it
+threads                 0: one for each processor
 Raises ValueError naming what is wrong.)");
     m.def(
         "base_lut_report",
-        [](const DescribedTissue& self, std::size_t size, double max_thickness_mm, double tolerance) {
-            SkinLut result = skin_lut(self.tissue, size, max_thickness_mm, tolerance);
-            return std::pair(std::move(result.lut), std::move(result.report));
+        [](const DescribedTissue& self, std::size_t size, double max_thickness_mm, double tolerance,
+           int threads) {
+            SkinLut result = base_lut_report(self.tissue, size, max_thickness_mm, tolerance, threads);
+            return std::pair(std::move(result.lut), result.report);
         },
-        "tissue"_a, "size"_a = 256, "max_thickness_mm"_a = 12.0, "tolerance"_a = 1e-3,
+        "tissue"_a, "size"_a = default_lut_size, "max_thickness_mm"_a = default_max_thickness_mm,
+        "tolerance"_a = default_lut_tolerance, "threads"_a = 0, Released(),
         "base_lut with its report: (BaseLut, SkinLutReport).");
     m.def(
-        "base_lut_by_plan",
-        [](const DescribedTissue& self, std::size_t size, double max_thickness_mm, int streams,
-           std::size_t nodes, std::size_t wavelength_step) {
-            SkinLut result =
-                skin_lut(self.tissue, size, max_thickness_mm, SkinLutPlan{streams, nodes, wavelength_step});
-            return std::pair(std::move(result.lut), std::move(result.report));
-        },
-        "tissue"_a, "size"_a = 256, "max_thickness_mm"_a = 12.0, "streams"_a = 16, "nodes"_a = 17,
-        "wavelength_step"_a = 4,
-        R"(base_lut_report with everything chosen by the caller: streams, nodes in each stretch of thickness (odd, 5 or
-more) and every how many samples of the 5 nm grid (1, 2, 4 or 8). For measuring; base_lut chooses better.)");
-    m.def(
         "reference_lut",
-        [](const DescribedTissue& self, std::size_t size, double max_thickness_mm, int streams) {
-            return reference_lut(self.tissue, size, max_thickness_mm, streams);
+        [](const DescribedTissue& self, std::size_t size, double max_thickness_mm, int streams, int threads) {
+            return reference_lut(self.tissue, size, max_thickness_mm, streams, threads);
         },
-        "tissue"_a, "size"_a = 256, "max_thickness_mm"_a = 12.0, "streams"_a = 64,
-        "base_lut by brute force: all 81 wavelengths solved at every entry. What base_lut is measured by.");
-    m.def("lut_error", &lut_error, "lut"_a, "exact"_a,
+        "tissue"_a, "size"_a = default_lut_size, "max_thickness_mm"_a = default_max_thickness_mm,
+        "streams"_a = 64, "threads"_a = 0, Released(),
+        "base_lut with as many streams as the caller says, as for slab: what base_lut is measured by.");
+    m.def("lut_error", &lut_error, "lut"_a, "exact"_a, Released(),
           "The error of one BaseLut against another of the same size, in SkinLutReport's norm.");
 }
 
@@ -208,38 +188,27 @@ void bind_tissue(py::module_& m) {
         [](const DescribedTissue& tissue, double thickness_mm, int streams) {
             return skin_angular_weight(tissue.tissue, thickness_mm, streams);
         },
-        "tissue"_a, "thickness_mm"_a = 4.0, "streams"_a = 16,
+        "tissue"_a, "thickness_mm"_a = 4.0, "streams"_a = 16, py::call_guard<py::gil_scoped_release>(),
         R"(How the light on a skin's far side enters by its angle, solved: an AngularWeight.
 
 It hardly depends on the thickness (mm, above 0); one typical of the object will do. streams as for slab.)");
     m.def("transmittance", &transmittance_of_arrays, "tissue"_a, "thickness_mm"_a, "wavelength_nm"_a,
-          "incidence"_a = "diffuse", "streams"_a = 16,
+          "incidence"_a = "diffuse", "streams"_a = 16, "threads"_a = 0,
           R"(Total transmittance of skin in air, shape (n_thickness, n_wavelength), in [0, 1].
 
 thickness_mm   (n,) epidermes included, 0 or more; thinner skin than its two epidermes is epidermis alone
 wavelength_nm  (m,) 380 to 780
 incidence      "diffuse", "normal" or the cosine mu0 in (0, 1]
 streams        as for slab
+threads        that divide the wavelengths; 0: one for each processor
 Falls with thickness. Raises ValueError naming what is wrong.)");
     m.def(
         "skin_layers",
         [](const DescribedTissue& self, double total_thickness_mm, double wavelength_nm) {
-            return layers(self.tissue, total_thickness_mm, wavelength_nm);
+            return skin_layers(self.tissue, total_thickness_mm, wavelength_nm);
         },
         "tissue"_a, "total_thickness_mm"_a, "wavelength_nm"_a,
         "The layers of skin, epidermis / inner layer / epidermis, for slab; 380 to 780 nm.");
-    m.def(
-        "diffusion_transmittance",
-        [](const DescribedTissue& self, py::handle thickness, py::handle wavelength) {
-            const auto thickness_mm = one_dimension(thickness, "thickness_mm");
-            const auto wavelength_nm = one_dimension(wavelength, "wavelength_nm");
-            return numpy::from_doubles(diffusion_transmittance(self.tissue, thickness_mm, wavelength_nm))
-                .reshape({static_cast<py::ssize_t>(thickness_mm.size()),
-                          static_cast<py::ssize_t>(wavelength_nm.size())});
-        },
-        "tissue"_a, "thickness_mm"_a, "wavelength_nm"_a,
-        "transmittance under diffuse light by the diffusion approximation: fast and wrong by tens of per "
-        "cent in thin skin.");
     bind_skin_lut(m);
     bind_spectrum(m);
 }

@@ -220,6 +220,99 @@ class Tissue:
     def __hash__(self) -> int: ...
 
 class SkinLutReport:
+    """Made by base_lut_report alone."""
+
+    @property
+    def streams(self) -> int: ...
+    @property
+    def estimated_error(self) -> float: ...
+
+def transmittance(self) -> float: ...
+    @property
+    def unscattered(self) -> float: ...
+    @property
+    def absorbed(self) -> _Array: ...
+
+class _DirectionalTransmittance(TypedDict):
+    mu: _Array
+    weight: _Array
+    transmittance: _Array
+
+def slab(
+    layers: Sequence[Layer],
+    incidence: _Incidence = "normal",
+    n_above: float = 1.0,
+    n_below: float = 1.0,
+    streams: int = 16,
+) -> SlabResult: ...
+def directional_transmittance(
+    layers: Sequence[Layer], n_above: float = 1.0, n_below: float = 1.0, streams: int = 16
+) -> _DirectionalTransmittance: ...
+
+class ThicknessCurve:
+    def __init__(
+        self,
+        layers: Sequence[Layer],
+        variable_layer: int = 0,
+        incidence: _Incidence = "diffuse",
+        n_above: float = 1.0,
+        n_below: float = 1.0,
+        streams: int = 16,
+    ) -> None: ...
+    def transmittance(self, thickness_mm: ArrayLike) -> _Array: ...
+    @property
+    def decay_rate(self) -> float: ...
+
+# Skin (bind_tissue.cpp)
+
+TISSUE_PARAMETERS: Final[dict[str, tuple[float, float, float, str, str]]]
+"""Default, minimum, maximum, unit and description by name."""
+
+TISSUE_PRESETS: Final[dict[str, Tissue]]
+
+class Tissue:
+    def __init__(
+        self,
+        *,
+        melanin_fraction: float = 0.038,
+        blood_fraction: float = 0.01,
+        oxygen_saturation: float = 0.75,
+        epidermal_thickness_mm: float = 0.06,
+        scattering_scale: float = 1.0,
+        refractive_index: float = 1.4,
+        cartilage_fraction: float = 0.0,
+    ) -> None: ...
+    def replace(
+        self,
+        *,
+        melanin_fraction: float = ...,
+        blood_fraction: float = ...,
+        oxygen_saturation: float = ...,
+        epidermal_thickness_mm: float = ...,
+        scattering_scale: float = ...,
+        refractive_index: float = ...,
+        cartilage_fraction: float = ...,
+    ) -> Tissue: ...
+    @property
+    def melanin_fraction(self) -> float: ...
+    @property
+    def blood_fraction(self) -> float: ...
+    @property
+    def oxygen_saturation(self) -> float: ...
+    @property
+    def epidermal_thickness_mm(self) -> float: ...
+    @property
+    def scattering_scale(self) -> float: ...
+    @property
+    def refractive_index(self) -> float: ...
+    @property
+    def cartilage_fraction(self) -> float: ...
+    @property
+    def description(self) -> str: ...
+    def __eq__(self, other: object) -> bool: ...
+    def __hash__(self) -> int: ...
+
+class SkinLutReport:
     """Made by base_lut_report and base_lut_by_plan alone."""
 
     @property
@@ -247,22 +340,18 @@ def transmittance(
     wavelength_nm: ArrayLike,
     incidence: _Incidence = "diffuse",
     streams: int = 16,
+    threads: int = 0,
 ) -> _Array: ...
-def diffusion_transmittance(tissue: Tissue, thickness_mm: ArrayLike, wavelength_nm: ArrayLike) -> _Array: ...
 def skin_layers(tissue: Tissue, total_thickness_mm: float, wavelength_nm: float) -> list[Layer]: ...
-def base_lut(tissue: Tissue, size: int = 256, max_thickness_mm: float = 12.0, tolerance: float = 1e-3) -> BaseLut: ...
+def base_lut(
+    tissue: Tissue, size: int = 256, max_thickness_mm: float = 12.0, tolerance: float = 1e-3, threads: int = 0
+) -> BaseLut: ...
 def base_lut_report(
-    tissue: Tissue, size: int = 256, max_thickness_mm: float = 12.0, tolerance: float = 1e-3
+    tissue: Tissue, size: int = 256, max_thickness_mm: float = 12.0, tolerance: float = 1e-3, threads: int = 0
 ) -> tuple[BaseLut, SkinLutReport]: ...
-def base_lut_by_plan(
-    tissue: Tissue,
-    size: int = 256,
-    max_thickness_mm: float = 12.0,
-    streams: int = 16,
-    nodes: int = 17,
-    wavelength_step: int = 4,
-) -> tuple[BaseLut, SkinLutReport]: ...
-def reference_lut(tissue: Tissue, size: int = 256, max_thickness_mm: float = 12.0, streams: int = 64) -> BaseLut: ...
+def reference_lut(
+    tissue: Tissue, size: int = 256, max_thickness_mm: float = 12.0, streams: int = 64, threads: int = 0
+) -> BaseLut: ...
 def lut_error(lut: BaseLut, exact: BaseLut) -> float: ...
 
 # Spectra (bind_spectrum.cpp)
