@@ -14,11 +14,18 @@ RENAMED = {
     "unnormalised_power_factor": "unnormalized_power_factor",
 }
 
+REMOVED = {
+    "base_lut_by_plan": "reference_lut takes streams, and solves every thickness and wavelength",
+    "diffusion_transmittance": "transmittance solves it properly; scripts/accuracy_steps/diffusion.py has the formula",
+}
+
 
 def __getattr__(name: str) -> object:
     """The public object that a former name stands for now: for use as `skinglow.__getattr__`."""
     import skinglow
 
+    if name in REMOVED:
+        raise AttributeError(f"skinglow.{name} is gone: {REMOVED[name]}")
     if name not in RENAMED:
         raise AttributeError(f"module 'skinglow' has no attribute {name!r}")
     warnings.warn(f"skinglow.{name} is now skinglow.{RENAMED[name]}", DeprecationWarning, stacklevel=2)

@@ -33,10 +33,6 @@ def say(what: str) -> None:
     print(f"[accuracy] {what}", flush=True)
 
 
-def point_rows(points: list[studies.Point]) -> list[list[str]]:
-    return [[p.label, f"{p.time_ms:.2f}", number(p.error)] for p in points]
-
-
 def solver_section() -> str:
     say("streams")
     series = {name: studies.streams(tissue) for name, tissue in task.SKINS.items()}
@@ -53,23 +49,16 @@ def solver_section() -> str:
 
 
 def table_section() -> str:
-    say("nodes, wavelengths, tolerances")
-    nodes = studies.nodes(task.THREE_LAYERS)
-    wavelengths = studies.wavelengths(task.THREE_LAYERS)
-    whole = studies.tolerances(task.THREE_LAYERS)
-    plots.table(IMAGES / "accuracy_table.png", nodes, wavelengths, whole)
-    _, brute_ms = task.timed(lambda: sg.reference_lut(task.THREE_LAYERS, 256, 12.0, 16))
+    say("tolerances")
+    points = studies.tolerances(task.THREE_LAYERS)
+    plots.table(IMAGES / "accuracy_table.png", points)
     rows = [
-        [f"{tolerance:g}", p.label, f"{p.time_ms:.2f}", number(p.estimate), number(p.error)]
-        for tolerance, p in zip(studies.TOLERANCES, whole, strict=True)
+        [f"{p.tolerance:g}", str(p.streams), *(f"{ms:.2f}" for ms in p.times_ms), number(p.estimate), number(p.error)]
+        for p in points
     ]
-    rows.append(["-", "16 streams, 256 thicknesses, 81 wavelengths (everything)", f"{brute_ms:.1f}", "-", "-"])
-    parts = [
-        page.table(["tolerance", "chosen", "ms", "error estimated", "error measured"], rows),
-        page.table(["thicknesses per stretch", "ms", "error"], point_rows(nodes)),
-        page.table(["wavelengths every", "ms", "error"], point_rows(wavelengths)),
-    ]
-    return "\n\n".join(parts)
+    return page.table(
+        ["tolerance", "streams chosen", "one thread, ms", "two, ms", "error estimated", "error measured"], rows
+    )
 
 
 def estimate_section() -> str:

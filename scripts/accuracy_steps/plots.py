@@ -8,7 +8,7 @@ import matplotlib
 import numpy as np
 import skinglow as sg
 import task
-from studies import Point, RedCurves
+from studies import THREADS, Point, RedCurves, TablePoint
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  after the choice of what it draws with
@@ -54,24 +54,19 @@ def solver(path: Path, series: dict[str, list[Point]]) -> None:
     _save(figure, path)
 
 
-def table(path: Path, nodes: list[Point], wavelengths: list[Point], whole: list[Point]) -> None:
-    """What a table costs: nodes, wavelengths, and all together as base_lut chooses them."""
-    figure, axes = plt.subplots(figsize=(7, 5.2))
-    series = {
-        "thicknesses solved per stretch (81 wavelengths, 16 streams)": nodes,
-        "every so many nm solved (65 thicknesses, 16 streams)": wavelengths,
-    }
-    _error_against_time(axes, series, labelled=True)
-    axes.loglog(
-        [p.time_ms for p in whole],
-        [p.error for p in whole],
-        color=COLORS[2],
-        marker=MARKS[2],
-        label="base_lut, tolerance 1e-1 to 1e-5",
-    )
+def table(path: Path, points: list[TablePoint]) -> None:
+    """What a table costs by tolerance, on one thread and on two."""
+    figure, axes = plt.subplots(figsize=(7, 4.5))
+    for i, threads in enumerate(THREADS):
+        name = "one thread" if threads == 1 else f"{threads} threads"
+        times, errors = [p.times_ms[i] for p in points], [p.error for p in points]
+        axes.loglog(times, errors, color=COLORS[i], marker=MARKS[i], label=name)
+        for p, time_ms in zip(points, times, strict=True):
+            axes.annotate(f"{p.tolerance:g}", (time_ms, p.error), (5, 4), textcoords="offset points", fontsize=8)
+    axes.set_xlabel("time, ms")
     axes.set_ylabel("error of the table (norm of the report)")
-    axes.set_title("A table of 256 entries, 0 to 12 mm, light skin")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), frameon=False)
+    axes.set_title("A table of 256 entries, 0 to 12 mm, light skin, by tolerance")
+    axes.legend()
     _plain_times(axes)
     _save(figure, path)
 

@@ -1,19 +1,18 @@
-"""Error against time: streams, thickness nodes, wavelengths, the whole table by tolerance, and the other methods."""
+"""Error against time: streams, the whole table by tolerance, and the other methods."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
+import diffusion
 import numpy as np
 import peers
 import skinglow as sg
 import task
 
-STREAMS = (4, 6, 8, 10, 12, 16, 20, 24, 32)
-NODES = (5, 7, 9, 13, 17, 21, 25, 33)
-WAVELENGTH_STEPS = (8, 4, 2, 1)
+STREAMS = (4, 6, 8, 10, 12, 16, 20, 24, 32, 40)
 TOLERANCES = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5)
+THREADS = (1, 2)
 RANDOM_SKINS = 200
 
 
@@ -32,70 +31,57 @@ def streams(tissue: sg.Tissue) -> list[Point]:
     exact = task.solved(tissue)
     points = []
     for count in STREAMS:
-        found, time_ms = task.timed(lambda n=count: task.solved(tissue, n))
+        found, time_ms = task.timed(lambda n=count: task.solved(tissue, n, threads=1))
         points.append(Point(str(count), time_ms, task.largest_relative_error(found, exact)))
     return points
 
 
 def streams_on_random_skins(count: int = 60) -> dict[int, float]:
     """The largest error in the table's norm that each number of streams leaves, against 64."""
+    random = np.random.default_rng(4)
     worst = dict.fromkeys(STREAMS, 0.0)
     for tissue in random_tissues(count, seed=1):
-        exact = sg.reference_lut(tissue, 32, 12.0, 64)
+        thickness = 10.0 ** random.uniform(-1.5, 1.5)
+        exact = sg.reference_lut(tissue, 32, thickness, 64)
         for n in STREAMS:
-            error = sg.lut_error(sg.reference_lut(tissue, 32, 12.0, n), exact)
+            error = sg.lut_error(sg.reference_lut(tissue, 32, thickness, n), exact)
             worst[n] = max(worst[n], error)
     return worst
 
 
-def _plans(tissue: sg.Tissue, plans: Iterable[tuple[str, dict[str, int]]]) -> list[Point]:
-    exact = sg.reference_lut(tissue, 256, 12.0, 16)
-    points = []
-    for label, plan in plans:
-        (lut, report), time_ms = task.timed(lambda p=plan: sg.base_lut_by_plan(tissue, streams=16, **p))
-        estimate = report.node_error + report.wavelength_error
-        points.append(Point(label, time_ms, sg.lut_error(lut, exact), estimate))
-    return points
+@dataclass
+class TablePoint:
+    """base_lut at one tolerance."""
+
+    tolerance: float
+    streams: int
+    times_ms: list[float]  # by THREADS
+    error: float
+    estimate: float
 
 
-def nodes(tissue: sg.Tissue) -> list[Point]:
-    """A 256-entry table from ever more thicknesses, all wavelengths, 16 streams, against every thickness."""
-    return _plans(tissue, ((str(n), {"nodes": n, "wavelength_step": 1}) for n in NODES))
-
-
-def wavelengths(tissue: sg.Tissue) -> list[Point]:
-    """The same from ever more wavelengths, 65 thicknesses, against all 81."""
-    return _plans(
-        tissue,
-        ((f"{5 * s} nm", {"nodes": 65, "wavelength_step": s}) for s in WAVELENGTH_STEPS),
-    )
-
-
-def tolerances(tissue: sg.Tissue) -> list[Point]:
-    """base_lut as it is used, against 64 streams, 81 wavelengths and every thickness."""
+def tolerances(tissue: sg.Tissue) -> list[TablePoint]:
+    """base_lut as it is used, against 64 streams."""
     exact = sg.reference_lut(tissue, 256, 12.0, task.REFERENCE_STREAMS)
     points = []
     for tolerance in TOLERANCES:
-        (lut, report), time_ms = task.timed(lambda t=tolerance: sg.base_lut_report(tissue, tolerance=t))
-        label = (
-            f"{report.streams} streams, {len(report.thickness_nodes_mm)} thicknesses, "
-            f"{len(report.wavelengths_nm)} wavelengths"
-        )
-        points.append(Point(label, time_ms, sg.lut_error(lut, exact), report.estimated_error))
+        times = []
+        for threads in THREADS:
+            (lut, report), time_ms = task.timed(
+                lambda t=tolerance, n=threads: sg.base_lut_report(tissue, tolerance=t, threads=n)
+            )
+            times.append(time_ms)
+        points.append(TablePoint(tolerance, report.streams, times, sg.lut_error(lut, exact), report.estimated_error))
     return points
 
 
 def random_tissues(count: int, seed: int) -> list[sg.Tissue]:
-    """Any skin that a Tissue may be."""
+    """Any skin that a Tissue may be; every second one at a corner of the parameters' ranges."""
     random = np.random.default_rng(seed)
+    ranges = {name: (minimum, maximum) for name, (_, minimum, maximum, _, _) in sg.TISSUE_PARAMETERS.items()}
     return [
-        sg.Tissue(
-            **{
-                name: random.uniform(minimum, maximum)
-                for name, (_, minimum, maximum, _, _) in sg.TISSUE_PARAMETERS.items()
-            }
-        )
-        for _ in range(count)
+        sg.Tissue(**{name: random.choice(ends) if i % 2 else random.uniform(*ends) for name, ends in ranges.items()})
+        for i in range(count)
     ]
 
 
@@ -104,9 +90,9 @@ def estimates() -> list[Point]:
     random = np.random.default_rng(2)
     points = []
     for tissue in random_tissues(RANDOM_SKINS, seed=3):
-        tolerance, thickness = 10.0 ** random.uniform(-4.0, -1.0), random.uniform(1.0, 20.0)
+        tolerance, thickness = 10.0 ** random.uniform(-5.0, -1.0), 10.0 ** random.uniform(-1.5, 1.5)
         lut, report = sg.base_lut_report(tissue, 48, thickness, tolerance)
-        exact = sg.reference_lut(tissue, 48, thickness, 32)
+        exact = sg.reference_lut(tissue, 48, thickness, 48)
         points.append(Point("", 0.0, sg.lut_error(lut, exact), report.estimated_error))
     return points
 
@@ -116,8 +102,8 @@ def other_methods(tissue: sg.Tissue) -> dict[str, Point]:
     exact = task.solved(tissue)
     reflectance, rate = peers.deep_skin(tissue, task.WAVELENGTHS_NM)
     methods = {
-        "this solver, 10 streams": lambda: task.solved(tissue, 10),
-        "diffusion approximation": lambda: sg.diffusion_transmittance(tissue, task.THICKNESS_MM, task.WAVELENGTHS_NM),
+        "this solver, 10 streams": lambda: task.solved(tissue, 10, threads=1),
+        "diffusion approximation": lambda: diffusion.transmittance(tissue, task.THICKNESS_MM, task.WAVELENGTHS_NM),
         "Burley's profile": lambda: peers.burley(task.THICKNESS_MM, reflectance, rate),
     }
     points = {}
@@ -139,13 +125,13 @@ def red_curves(name: str, tissue: sg.Tissue) -> RedCurves:
     """The four methods side by side, red channel; the six Gaussians know no tissue."""
     nm = sg.SAMPLE_WAVELENGTHS_NM
     exact = sg.transmittance(tissue, task.THICKNESS_MM, nm, streams=32)
-    diffusion = sg.diffusion_transmittance(tissue, task.THICKNESS_MM, nm)
+    approximate = diffusion.transmittance(tissue, task.THICKNESS_MM, nm)
     profile = peers.burley(task.THICKNESS_MM, *peers.deep_skin(tissue, nm))
     return RedCurves(
         name,
         {
             "solved": peers.to_rgb(exact)[:, 0],
-            "diffusion approximation": peers.to_rgb(diffusion)[:, 0],
+            "diffusion approximation": peers.to_rgb(approximate)[:, 0],
             "Burley's profile": peers.to_rgb(profile)[:, 0],
             "six Gaussians": peers.six_gaussians(task.THICKNESS_MM)[:, 0],
         },

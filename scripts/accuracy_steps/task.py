@@ -22,13 +22,13 @@ ONE_LAYER = THREE_LAYERS.replace(epidermal_thickness_mm=0.0)
 SKINS = {"one layer (dermis)": ONE_LAYER, "three layers (light skin)": THREE_LAYERS}
 
 
-def solved(tissue: sg.Tissue, streams: int = REFERENCE_STREAMS) -> np.ndarray:
+def solved(tissue: sg.Tissue, streams: int = REFERENCE_STREAMS, threads: int = 0) -> np.ndarray:
     """Transmittance of the task, (256, 30), by the solver."""
-    return sg.transmittance(tissue, THICKNESS_MM, WAVELENGTHS_NM, streams=streams)
+    return sg.transmittance(tissue, THICKNESS_MM, WAVELENGTHS_NM, streams=streams, threads=threads)
 
 
 def largest_relative_error(found: np.ndarray, exact: np.ndarray) -> float:
-    """Over all places where at least DARKEST comes through."""
+    """Wherever at least DARKEST comes through."""
     seen = exact > DARKEST
     return float(np.max(np.abs(found[seen] / exact[seen] - 1.0)))
 

@@ -4,8 +4,6 @@
 
 #include <vector>
 
-#include "skin/diffusion_approximation.h"
-
 namespace {
 
 using namespace skinglow;
@@ -68,28 +66,28 @@ BENCHMARK(by_wavelengths)
     ->Complexity(benchmark::oN)
     ->Unit(benchmark::kMillisecond);
 
-/// The table of mode physical, 256 entries. Argument: tolerance is 10^-n.
+/// The table of mode physical, 256 entries. Arguments: tolerance is 10^-n; threads.
 void base_lut_at_tolerance(benchmark::State& state) {
     double tolerance = 1.0;
     for (auto n = state.range(0); n > 0; --n) tolerance *= 0.1;
-    for (auto _ : state) benchmark::DoNotOptimize(base_lut(light_skin(true), 256, 12.0, tolerance));
+    const auto threads = static_cast<int>(state.range(1));
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(base_lut(light_skin(true), 256, 12.0, tolerance, threads));
+    }
 }
-BENCHMARK(base_lut_at_tolerance)->ArgName("n")->DenseRange(1, 5)->Unit(benchmark::kMillisecond);
+BENCHMARK(base_lut_at_tolerance)
+    ->ArgNames({"n", "threads"})
+    ->ArgsProduct({{1, 2, 3, 4, 5}, {1, 2}})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
-/// The same with nothing left out, at the streams that tolerance 1e-3 takes and at more.
+/// The same at the streams that tolerance 1e-3 takes and at more.
 void full_table(benchmark::State& state) {
     for (auto _ : state) {
         benchmark::DoNotOptimize(
-            reference_lut(light_skin(true), 256, 12.0, static_cast<int>(state.range(0))));
+            reference_lut(light_skin(true), 256, 12.0, static_cast<int>(state.range(0)), 1));
     }
 }
 BENCHMARK(full_table)->ArgName("streams")->Arg(10)->Arg(16)->Arg(32)->Unit(benchmark::kMillisecond);
-
-/// Diffusion theory at the task of skin_transmittance.
-void diffusion(benchmark::State& state) {
-    const std::vector<double> thickness = even(0.0, 12.0, 256), nm = even(400.0, 700.0, 30);
-    for (auto _ : state) benchmark::DoNotOptimize(diffusion_transmittance(light_skin(true), thickness, nm));
-}
-BENCHMARK(diffusion)->Unit(benchmark::kMillisecond);
 
 }  // namespace

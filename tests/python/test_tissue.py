@@ -1,10 +1,17 @@
 """Skin through the Python package: parameters, transmittance, spectra, the base lookup and its bound."""
 
+import sys
+import threading
+from pathlib import Path
+
 import numpy as np
 import pytest
 import skinglow as sg
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "accuracy_steps"))
+import diffusion  # noqa: E402
 
 WHITE = np.ones(3)
 
@@ -100,13 +107,53 @@ def test_base_lut_is_a_table_that_recolors():
 
 
 def test_report_tells_what_was_chosen():
-    coarse = sg.base_lut_report(sg.Tissue(), tolerance=1e-1)[1]
+    lut, coarse = sg.base_lut_report(sg.Tissue(), tolerance=1e-1)
     fine = sg.base_lut_report(sg.Tissue(), tolerance=1e-4)[1]
     assert fine.streams > coarse.streams
-    assert len(fine.thickness_nodes_mm) > len(coarse.thickness_nodes_mm)
-    assert len(fine.wavelengths_nm) > len(coarse.wavelengths_nm)
-    assert fine.pairs_solved > coarse.pairs_solved
     assert fine.estimated_error < coarse.estimated_error
+    np.testing.assert_array_equal(lut.matrices, sg.reference_lut(sg.Tissue(), streams=coarse.streams).matrices)
+
+
+def test_number_of_threads_does_not_matter():
+    one = sg.base_lut(sg.Tissue(), 32, threads=1)
+    np.testing.assert_array_equal(one.matrices, sg.base_lut(sg.Tissue(), 32, threads=3).matrices)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: sg.reference_lut(sg.Tissue(), 256, 12.0, 64, threads=1),
+        lambda: sg.base_lut(sg.Tissue(), 256, 12.0, 1e-6, threads=1),
+        lambda: sg.base_lut_report(sg.Tissue(), 256, 12.0, 1e-6, threads=1),
+        lambda: sg.transmittance(sg.Tissue(), np.linspace(0, 12, 99), sg.SAMPLE_WAVELENGTHS_NM, streams=64, threads=1),
+        lambda: sg.skin_angular_weight(sg.Tissue(), streams=128),
+        lambda: sg.slab([sg.Layer(1.4, 0.1, 10, 0.8, 1)] * 3 + [sg.Layer(1.3, 0.1, 10, 0.8, 1)] * 3, streams=128),
+    ],
+    ids=["reference_lut", "base_lut", "base_lut_report", "transmittance", "skin_angular_weight", "slab"],
+)
+def test_other_threads_go_on(call):
+    steps, done = [0], threading.Event()
+    running = threading.Event()
+
+    def count():
+        while not done.is_set():
+            steps[0] += 1
+            running.set()
+
+    # The switch interval is longer than the call: the other thread advances only if the call lets it.
+    before = sys.getswitchinterval()
+    thread = threading.Thread(target=count)
+    thread.start()
+    running.wait()
+    sys.setswitchinterval(2.0)
+    try:
+        start = steps[0]
+        call()
+        assert steps[0] > start
+    finally:
+        sys.setswitchinterval(before)
+        done.set()
+        thread.join()
 
 
 def test_spectra():
@@ -135,8 +182,20 @@ def test_matrix_is_the_full_spectral_answer_for_lights_of_the_basis(filter_, rgb
 def test_diffusion_theory_is_near_in_deep_skin_only():
     tissue = sg.Tissue()
     exact = sg.transmittance(tissue, [0.3, 6.0], 650.0)[:, 0]
-    ratio = sg.diffusion_transmittance(tissue, [0.3, 6.0], 650.0)[:, 0] / exact
+    ratio = diffusion.transmittance(tissue, [0.3, 6.0], [650.0])[:, 0] / exact
     assert abs(ratio[1] - 1) < abs(ratio[0] - 1)
+
+
+def test_diffusion_theory_has_the_decay_rate_of_the_solution():
+    deep = sg.transmittance(sg.Tissue(), [20.0, 21.0], 600.0, streams=32)[:, 0]
+    approximate = diffusion.transmittance(sg.Tissue(), [20.0, 21.0], [600.0])[:, 0]
+    assert np.log(approximate[1] / approximate[0]) / np.log(deep[1] / deep[0]) == pytest.approx(1.0, abs=0.02)
+
+
+def test_diffuse_reflectance_of_a_surface():
+    assert diffusion.diffuse_fresnel_reflectance(1.0) == 0.0
+    # Known value for n = 1.5: 0.0918 (J. W. T. Walsh 1926, tabulated by R. A. Judd, J. Res. NBS 29:329, 1942).
+    assert diffusion.diffuse_fresnel_reflectance(1.5) == pytest.approx(0.0918, abs=2e-4)
 
 
 @pytest.mark.parametrize(

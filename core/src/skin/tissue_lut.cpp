@@ -14,8 +14,15 @@ namespace {
 
 /// Streams per hemisphere and a bound on the error they leave: half as much again as the largest error seen on
 /// random skins and on the corners of the parameters' ranges (docs/accuracy.md).
-constexpr std::array<SkinLutReport, 8> stream_choices = {
-    {{6, 1e-1}, {8, 6e-3}, {10, 9.5e-4}, {12, 3.5e-4}, {16, 9.5e-5}, {20, 2e-5}, {24, 4e-6}, {32, 8e-7}}};
+constexpr std::array<SkinLutReport, 9> stream_choices = {{{6, 1e-1},
+                                                          {8, 6e-3},
+                                                          {10, 9.5e-4},
+                                                          {12, 3.5e-4},
+                                                          {16, 9.5e-5},
+                                                          {20, 2e-5},
+                                                          {24, 4e-6},
+                                                          {32, 1.5e-6},
+                                                          {40, 5e-7}}};
 
 /// Difference of two matrices in the norm of SkinLutReport.
 double matrix_error(const glm::dmat3& matrix, const glm::dmat3& exact) {

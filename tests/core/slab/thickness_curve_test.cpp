@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
+#include <hwy/highway.h>
 #include <skinglow/slab.h>
 
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -106,6 +108,32 @@ TEST(ThicknessCurve, falls_steadily) {
             else
                 EXPECT_LT(out[i], out[i - 1]) << thickness[i] << " mm";
         }
+    }
+}
+
+// The kernel is compiled once for each kind of processor: they all give the same to rounding.
+TEST(ThicknessCurve, is_the_same_on_every_target) {
+    std::vector<double> thickness{0, 1e-9};
+    for (int i = 0; i < 61; ++i) thickness.push_back(1e-4 * std::pow(1.25, i));
+    for (const Stack& stack : stacks()) {
+        const ThicknessCurve curve(stack.layers, stack.variable, Incidence::diffuse(), stack.n_above,
+                                   stack.n_below, 12);
+        std::vector<double> best(thickness.size());
+        curve.transmittance(thickness, best);
+        const std::int64_t supported = hwy::SupportedTargets() & HWY_TARGETS;
+        for (std::int64_t rest = supported; rest != 0; rest &= rest - 1) {
+            const std::int64_t target = rest & -rest;
+            hwy::SetSupportedTargetsForTest(target);
+            hwy::GetChosenTarget().Update(target);
+            std::vector<double> found(thickness.size());
+            curve.transmittance(thickness, found);
+            for (std::size_t i = 0; i < found.size(); ++i) {
+                EXPECT_NEAR(found[i], best[i], 1e-13 * best[i] + 1e-300)
+                    << stack.name << ", " << hwy::TargetName(target) << ", " << thickness[i] << " mm";
+            }
+        }
+        hwy::SetSupportedTargetsForTest(0);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     }
 }
 
