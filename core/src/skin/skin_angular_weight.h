@@ -1,6 +1,6 @@
 #pragma once
 
-#include "radiometry/angular_weight.h"
+#include <skinglow/angular_weight.h>
 #include "skin/tissue.h"
 
 namespace skinglow {
