@@ -8,7 +8,7 @@
 
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
-#include "radiometry/environment.h"
+#include <skinglow/environment.h>
 #include "radiometry/prepared_light.h"
 
 namespace py = pybind11;

@@ -9,7 +9,7 @@
 #include "light/light_units.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
-#include "radiometry/environment.h"
+#include <skinglow/environment.h>
 #include "radiometry/prepared_light.h"
 #include "rig/irradiance.h"
 #include "rig/surface_irradiance.h"

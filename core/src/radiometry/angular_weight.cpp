@@ -1,4 +1,4 @@
-#include "radiometry/angular_weight.h"
+#include <skinglow/angular_weight.h>
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -7,7 +7,7 @@
 
 #include "numerics/quadrature.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr double narrow = 1.0 / 50.0;
@@ -89,4 +89,4 @@ glm::dvec3 AreaAngularWeight::mean(const glm::dvec3& point, const glm::dvec3& no
     return whole > 0.0 && std::isfinite(whole) ? sum / whole : at_middle;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

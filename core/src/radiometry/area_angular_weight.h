@@ -1,12 +1,14 @@
 #pragma once
 
+#include <skinglow/angular_weight.h>
+
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "radiometry/angular_weight.h"
+#include "numerics/detail.h"
 #include "radiometry/prepared_light.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 
 /// What an area lamp's light counts by its angles at a place: the mean of an angular weight over the lamp,
 /// each part by the light it sends. The lamp's irradiance stays exact; only the ratio is a rule's.
@@ -36,4 +38,4 @@ class AreaAngularWeight {
     Nodes many_;
 };
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

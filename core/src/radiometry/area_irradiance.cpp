@@ -10,7 +10,7 @@
 #include "numerics/quadrature.h"
 #include "radiometry/spread_integral.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -248,4 +248,4 @@ double AreaEmitter::ellipse_irradiance(const glm::dvec3& point, const glm::dvec3
     return sum / spread_norm_;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

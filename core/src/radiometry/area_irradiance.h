@@ -3,8 +3,9 @@
 #include <glm/vec3.hpp>
 
 #include "light/light.h"
+#include "numerics/detail.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 
 /// A flat lamp in its own frame: it lies at z = 0 around the origin and shines towards +z with radiance
 /// L g(t), g(t) = max(0, (tan s/2 - tan t) / (tan s/2 - s/2)) at an angle t to z and a spread s (g = 1 for s
@@ -46,4 +47,4 @@ class AreaEmitter {
     double spread_norm_ = 1;
 };
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -36,4 +36,4 @@ double cap_irradiance(double cos_normal, double sin_radius) {
     return std::clamp((of_patch + of_horizon / (sin_radius * sin_radius)) / pi, 0.0, 1.0);
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -1,6 +1,8 @@
 #pragma once
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// Irradiance from a round patch of sky of uniform radiance L, cut off by the receiver's horizon, as a share
 /// of what a receiver facing its middle gets (pi L sin^2): the whole of a ball, a facing disk or a sun that a
@@ -14,4 +16,4 @@ namespace skinglow {
 /// sources for real-time graphics", Microsoft MSR-TR-96-11 (1996). Checked against quadrature in the tests.
 double cap_irradiance(double cos_normal, double sin_radius);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -1,4 +1,4 @@
-#include "radiometry/environment.h"
+#include <skinglow/environment.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,11 @@
+#include <skinglow/environment.h>
+
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "numerics/argument_check.h"
-#include "radiometry/environment.h"
 #include "radiometry/spherical_harmonics.h"
 
 namespace skinglow {

@@ -8,7 +8,7 @@
 
 #include "radiometry/cap_irradiance.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -120,4 +120,4 @@ double PreparedLight::facing_irradiance(const glm::dvec3& point, double toleranc
     return irradiance(point, to_light(point), tolerance);
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -6,10 +6,11 @@
 
 #include "geometry/vector.h"
 #include "light/light.h"
+#include "numerics/detail.h"
 #include "radiometry/area_irradiance.h"
 #include "radiometry/spot_profile.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 
 /// No lamp is nearer than this, in the scene's length unit: a point at a lamp's very place gets what it gets
 /// at this distance, facing it, so that nothing is infinite.
@@ -75,4 +76,4 @@ class PreparedLight {
     bool dark_ = false;  ///< a cone or spread of no width
 };
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -3,7 +3,9 @@
 #include <array>
 #include <glm/vec3.hpp>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// What each real orthonormal spherical harmonic up to l = 2 is of its monomial, in the order of Environment:
 /// sqrt(1 / (4 pi)), sqrt(3 / (4 pi)), sqrt(15 / (4 pi)), sqrt(5 / (16 pi)), sqrt(15 / (16 pi)).
@@ -23,4 +25,4 @@ constexpr std::array<double, 9> spherical_harmonics(const glm::dvec3& d) {
     return values;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

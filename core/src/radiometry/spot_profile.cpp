@@ -9,7 +9,7 @@
 #include "geometry/vector.h"
 #include "numerics/quadrature.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -128,4 +128,4 @@ double cap_irradiance_through_spot(const SpotProfile& profile, const glm::dvec3&
     return std::clamp(sum / (pi * sin_radius * sin_radius), 0.0, 1.0);
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -2,7 +2,9 @@
 
 #include <glm/vec3.hpp>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// How a spot fades from its axis to the edge of its cone: smoothstep((cos t - cos half) / (blend (1 - cos
 /// half))), as Blender's renderers have it (measured on 3.4 to 5.2); the total is not raised when the cone
@@ -41,4 +43,4 @@ class SpotProfile {
 double cap_irradiance_through_spot(const SpotProfile& profile, const glm::dvec3& normal,
                                    const glm::dvec3& to_light, const glm::dvec3& to_spot, double sin_radius);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -6,7 +6,7 @@
 
 #include "numerics/quadrature.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr double small =
@@ -77,4 +77,4 @@ double SpreadIntegral::edge(const glm::dvec2& a, const glm::dvec2& b, const glm:
     return sum;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -2,7 +2,9 @@
 
 #include <glm/vec2.hpp>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// The radial half of the integral over a flat lamp whose radiance is (T - tan t) up to the angle whose
 /// tangent is T. About the foot of the perpendicular from the receiver to the lamp's plane, with x = tan t
@@ -32,4 +34,4 @@ class SpreadIntegral {
 /// tan(a) - a without cancellation, for a given tan(a) of 0 or more.
 double tangent_minus_angle(double tangent);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <skinglow/angular_weight.h>
+#include <skinglow/environment.h>
+
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
 #include "light/light.h"
-#include "radiometry/angular_weight.h"
-#include "radiometry/environment.h"
+#include "radiometry/irradiance_sum.h"
 #include "rig/irradiance.h"
 
 namespace skinglow {
@@ -32,6 +34,15 @@ struct SurfaceOptions {
 std::vector<glm::dvec3> surface_irradiance(std::span<const Light> lights, std::span<const glm::dvec3> points,
                                            std::span<const glm::dvec3> normals,
                                            const SurfaceOptions& options = {});
+
+namespace detail {
+
+/// The same for lights already prepared, as many normals as points.
+std::vector<glm::dvec3> sum_over_surface(std::span<const WeightedLight> lights,
+                                         std::span<const glm::dvec3> points,
+                                         std::span<const glm::dvec3> normals, const SurfaceOptions& options);
+
+}  // namespace detail
 
 /// Throws std::invalid_argument unless there are as many normals as points, all finite; names the entry.
 void require_places(std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals);

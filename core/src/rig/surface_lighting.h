@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "light/light.h"
-#include "radiometry/angular_weight.h"
-#include "radiometry/environment.h"
+#include <skinglow/angular_weight.h>
+#include <skinglow/environment.h>
 #include "rig/light_bounds.h"
 #include "rig/surface_term.h"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "radiometry/angular_weight.h"
+#include <skinglow/angular_weight.h>
 #include "radiometry/prepared_light.h"
 
 namespace skinglow {

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <skinglow/angular_weight.h>
+
 #include <array>
 #include <cstddef>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <span>
-
-#include "radiometry/angular_weight.h"
 
 namespace skinglow {
 

@@ -1,0 +1,110 @@
+#include "radiometry/irradiance_sum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "geometry/vector.h"
+
+namespace skinglow::detail {
+namespace {
+
+using Kernel = KernelLight::Kernel;
+
+/// Beyond this, squares of squares overflow: such lights are asked one by one.
+constexpr double max_vectorized = 1e70;
+
+bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void set_ball(KernelLight& k, const PreparedLight& light) {
+    constexpr double min_sq = min_light_distance * min_light_distance;
+    k.radius_sq = light.radius() * light.radius();
+    k.softening_sq = light.soft_falloff() ? k.radius_sq : 0.0;
+    k.min_distance_sq = light.soft_falloff() ? min_sq : std::max(k.radius_sq, min_sq);
+    k.half_pi_radius = 0.5 * std::numbers::pi * light.radius();
+    if (!light.spot()) return;
+    const SpotProfile& spot = *light.spot();
+    const double fade = spot.cos_fade_start() - spot.cos_edge();
+    k.cos_edge = spot.cos_edge();
+    k.fade_scale = fade > 0.0 ? 1.0 / fade : 1e300;
+    k.cos_uneven = spot.with_cosine() ? 2.0 : spot.cos_fade_start();
+    k.cosine_falloff = spot.with_cosine() ? 1.0 : 0.0;
+}
+
+void set_rectangle(KernelLight& k, const PreparedLight& light) {
+    k.x_axis = light.frame()[0];
+    k.y_axis = light.frame()[1];
+    k.half_x = light.area()->half_x() * light.area_scale();
+    k.half_y = light.area()->half_y() * light.area_scale();
+}
+
+Kernel kernel_of(const PreparedLight& light) {
+    if (!(std::max({max_abs(light.position()), light.radius(), light.area_scale()}) < max_vectorized))
+        return Kernel::none;
+    if (light.kind() == LightKind::sun) return Kernel::sun;
+    if (light.kind() == LightKind::point) return Kernel::point;
+    if (light.kind() == LightKind::spot) return Kernel::spot;
+    const bool has_kernel = light.area()->shape() == AreaShape::rectangle && !light.area()->spreads() &&
+                            light.area_scale() >= 0.5e-9;
+    return has_kernel ? Kernel::rectangle : Kernel::none;
+}
+
+}  // namespace
+
+IrradianceSum::IrradianceSum(std::span<const WeightedLight> lights, const AngularWeight* angular_weight,
+                             double tolerance)
+    : angular_weight_(angular_weight), tolerance_(tolerance) {
+    for (const auto& [light, strength] : lights) {
+        if (light->dark()) continue;
+        KernelLight k;
+        k.kernel = kernel_of(*light);
+        k.light = light;
+        k.strength = strength;
+        k.position = light->position();
+        k.reverse_axis = -light->direction();
+        k.sin_sun_radius = light->sin_sun_radius();
+        if (k.kernel == Kernel::point || k.kernel == Kernel::spot) set_ball(k, *light);
+        if (k.kernel == Kernel::rectangle) set_rectangle(k, *light);
+        lights_.push_back(k);
+        if (angular_weight == nullptr) continue;
+        area_weights_.emplace_back();
+        if (light->area()) area_weights_.back().emplace(*light, *angular_weight);
+    }
+}
+
+double IrradianceSum::irradiance(const KernelLight& light, const glm::dvec3& point,
+                                 const glm::dvec3& unit_normal) const {
+    return unit_normal == glm::dvec3(0.0) ? 0.0 : light.light->irradiance(point, unit_normal, tolerance_);
+}
+
+void IrradianceSum::add_weighted(const KernelLight& light, const glm::dvec3& point,
+                                 const glm::dvec3& unit_normal, double value, double cosine,
+                                 glm::dvec3& sum) const {
+    if (value == 0.0) return;
+    const auto& area_weight = area_weights_[static_cast<std::size_t>(&light - lights_.data())];
+    if (!area_weight && std::isnan(cosine)) cosine = glm::dot(light.light->to_light(point), unit_normal);
+    sum += light.strength * value *
+           (area_weight ? area_weight->mean(point, unit_normal) : angular_weight_->at(cosine));
+}
+
+void IrradianceSum::add_one_by_one(std::span<const KernelLight> lights, const glm::dvec3& point,
+                                   const glm::dvec3& normal, glm::dvec3& sum) const {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    if (!is_finite(point) || !is_finite(normal)) sum = glm::dvec3(nan);
+    if (normal == glm::dvec3(0.0) || !is_finite(sum)) return;
+    const glm::dvec3 n = unit(normal);
+    for (const KernelLight& light : lights) {
+        const double value = irradiance(light, point, n);
+        if (has_angular_weight()) {
+            add_weighted(light, point, n, value, nan, sum);
+        } else {
+            sum += light.strength * value;
+        }
+    }
+}
+
+}  // namespace skinglow::detail
