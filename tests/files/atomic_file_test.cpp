@@ -2,11 +2,25 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <stdexcept>
+#include <thread>
 
 #include "rig_files/file_error.h"
 #include "scratch_folder.h"
+
+namespace {
+std::atomic<int> umask_calls = 0;
+}
+
+/// Takes the C library's place in this program, to see who calls it.
+extern "C" mode_t umask(mode_t mask) {
+    ++umask_calls;
+    return static_cast<mode_t>(::syscall(SYS_umask, mask));
+}
 
 namespace skinglow::test {
 namespace {
@@ -39,11 +53,32 @@ TEST(AtomicFile, AFailingWriterLeavesTheOldFileAndNothingElse) {
 
 TEST(AtomicFile, HasTheOrdinaryPermissionsOfANewFile) {
     const ScratchFolder folder;
-    const mode_t before = ::umask(022);
-    write_text_atomically(folder / "a.csv", "1\n");
-    ::umask(before);
-    const auto bits = fs::status(folder / "a.csv").permissions();
-    EXPECT_EQ(bits, static_cast<fs::perms>(0644));
+    for (const auto& [mask, wanted] : {std::pair{022U, 0644U}, {077U, 0600U}, {0U, 0666U}}) {
+        const mode_t before = ::umask(mask);
+        write_text_atomically(folder / "a.csv", "1\n");
+        ::umask(before);
+        EXPECT_EQ(fs::status(folder / "a.csv").permissions(), static_cast<fs::perms>(wanted));
+    }
+}
+
+TEST(AtomicFile, ManyThreadsWriteAtOnceAndNoneTouchesTheUmask) {
+    // The mask belongs to the whole process: even a moment's change of it shows in another thread's new file.
+    const ScratchFolder folder;
+    const int calls_before = umask_calls;
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < 4; ++i) {
+        threads.emplace_back([&folder, i] {
+            for (int k = 0; k < 20; ++k) {
+                write_text_atomically(folder / "same.csv", std::string(1000, static_cast<char>('a' + i)));
+                write_text_atomically(folder / (std::to_string(i) + ".csv"), "1\n");
+            }
+        });
+    }
+    threads.clear();
+    EXPECT_EQ(umask_calls, calls_before);
+    const std::string text = read_bytes(folder / "same.csv");
+    EXPECT_EQ(text, std::string(1000, text.at(0)));
+    EXPECT_EQ(folder.names().size(), 5U);
 }
 
 TEST(AtomicFile, FollowsALinkInsteadOfReplacingIt) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <skinglow/lut.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <numbers>
@@ -11,6 +13,7 @@
 #include <stdexcept>
 
 #include "povray/sdl_text.h"
+#include "random_lights.h"
 #include "table1.h"
 
 using namespace skinglow;
@@ -89,6 +92,105 @@ TEST(PovrayFiles, RefuseWhatPovrayCannotShow) {
     EXPECT_THROW(povray_files(scene), std::invalid_argument);
 }
 
+/// The first word of a file that stands for no finite number.
+std::string not_finite(const std::string& text) {
+    std::istringstream words(text);
+    std::string word;
+    while (words >> word) {
+        for (char& c : word) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
+        std::size_t begin = word.find_first_not_of("<,-{(");
+        while (begin != std::string::npos) {
+            const std::size_t end = word.find_first_of("<,>{}();", begin);
+            const std::string number = word.substr(begin, end - begin);
+            if (number == "inf" || number == "nan" || number == "-inf" || number == "-nan") return word;
+            begin = end == std::string::npos ? end : word.find_first_not_of("<,>{}();", end);
+        }
+    }
+    return "";
+}
+
+TEST(PovrayLights, AreFiniteForAnyLightThatIsAllowed) {
+    ASSERT_EQ(not_finite("rgb <1,-inf,2>"), "<1,-inf,2>");
+    ASSERT_EQ(not_finite("tightness -nan"), "-nan");
+    RandomScene random(3);
+    const auto sign = [&] { return random.decades(0.1, 10) < 1 ? -1.0 : 1.0; };
+    const auto any_vector = [&](double low, double high) {
+        return random.unit_vector() * random.decades(low, high);
+    };
+    int written = 0;
+    int refused = 0;
+    for (int round = 0; round < 4000; ++round) {
+        PovrayScene scene = triangle();
+        scene.surface = PovraySurface{};
+        Light light;
+        light.name = "extreme";
+        light.kind = static_cast<LightKind>(round % 4);
+        light.area_shape = round % 8 < 4 ? AreaShape::rectangle : AreaShape::ellipse;
+        light.color = glm::dvec3(random.decades(1e-300, 1e300), 1, 0);
+        light.power = sign() * random.decades(1e-300, round % 3 == 0 ? 1e300 : 1e6);
+        light.position = any_vector(1e-300, round % 5 == 0 ? 1e307 : 1e10);
+        light.direction = any_vector(1e-300, 1e300);
+        light.tangent = round % 7 == 0 ? light.direction : any_vector(1e-300, 1e300);
+        light.radius = random.decades(1e-300, 1e300);
+        light.soft_falloff = round % 2 == 0;
+        light.sun_angle = std::min(random.decades(1e-300, 10), std::numbers::pi);
+        light.spot_angle = std::min(random.decades(1e-300, 10), std::numbers::pi);
+        light.spot_blend = std::min(random.decades(1e-300, 10), 1.0);
+        light.size_x = random.decades(1e-300, 1e300);
+        light.size_y = round % 9 == 0 ? 0.0 : random.decades(1e-300, 1e300);
+        light.spread = std::min(random.decades(round % 2 == 0 ? 1e-300 : 1e-6, 10), std::numbers::pi);
+        scene.lights = {light};
+        try {
+            for (const auto& [name, text] : povray_files(scene)) {
+                if (name == "skinglow.inc") continue;
+                ASSERT_EQ(not_finite(text), "") << name << " of round " << round;
+            }
+            ++written;
+        } catch (const std::invalid_argument& error) {
+            EXPECT_TRUE(contains(error.what(), "light \"extreme\" intensity")) << error.what();
+            ++refused;
+        }
+    }
+    EXPECT_GT(written, 2000);
+    EXPECT_GT(refused, 100);
+}
+
+TEST(PovrayLights, OfAnyLengthOfDirectionAndAnySpreadAreRight) {
+    const auto lights_of = [](const Light& light) {
+        PovrayScene scene = triangle();
+        scene.surface = PovraySurface{};
+        scene.lights = {light};
+        return povray_files(scene).at("lights.inc");
+    };
+    Light light;
+    light.kind = LightKind::spot;
+    light.position = {1, 2, 3};
+    light.direction = {0, 0, -1};
+    for (const LightKind kind : {LightKind::spot, LightKind::area, LightKind::sun}) {
+        light.kind = kind;
+        light.direction = {0, 0, -1};
+        const std::string wanted = lights_of(light);
+        for (const double length : {1e-170, 1e-300, 1e200, 1e300}) {
+            light.direction = {0, 0, -length};
+            EXPECT_EQ(lights_of(light), wanted) << length;
+        }
+    }
+    // (tan h - tan t) / tan h halfway is close to 1/2 for a narrow spread, and POV-Ray's law meets it there.
+    light.kind = LightKind::area;
+    light.direction = {0, 0, -1};
+    for (const double spread : {3.0, 1.0, 0.1, 1e-3, 1e-5}) {
+        light.spread = spread;
+        const std::string text = lights_of(light);
+        const double tightness = std::stod(text.substr(text.find("tightness ") + 10));
+        const double h = spread / 2;
+        // 1 - cos, without the cancellation.
+        const auto versine = [](double angle) { return 2 * std::pow(std::sin(angle / 2), 2); };
+        const double s = (versine(h) - versine(h / 2)) / versine(h);
+        const double law = s * s * (3 - 2 * s) * std::exp((tightness - 1) * std::log1p(-versine(h / 2)));
+        EXPECT_NEAR(law, 1 - std::tan(h / 2) / std::tan(h), 1e-9) << spread;
+    }
+}
+
 TEST(PovrayCamera, ProjectionAndFieldOfViewAgree) {
     // A perspective of 60 degrees, 2 : 1, shifted by a tenth of its width to the right and up, as OpenGL has
     // it.
@@ -160,6 +262,8 @@ TEST(SdlText, StringsAndCommentsCannotBreakOut) {
 
 TEST(SdlText, NumbersReadBackAsTheSame) {
     SdlText text;
+    EXPECT_THROW(text.add(std::numeric_limits<double>::infinity()), std::invalid_argument);
+    EXPECT_THROW(text.add(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
     text.add(0.1 + 0.2).add(" ").add(-0.0).add(" ").add(1e-310).add(" ").add(glm::dvec3(1, 2.5, -3));
     EXPECT_EQ(text.take(), "0.30000000000000004 0 1e-310 <1,2.5,-3>");
 }

@@ -1,12 +1,11 @@
 #include "files/atomic_file.h"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <fstream>
+#include <random>
 #include <string>
 #include <system_error>
 
@@ -23,17 +22,24 @@ constexpr const char* folder_remedy = "choose a folder that exists and that you 
     refuse_file(path, "cannot be written: " + system_error_text(error_number), remedy);
 }
 
-/// A file that goes when its owner goes, unless it was renamed away before.
+fs::path folder_of(const fs::path& path) {
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// A file that is removed when its owner goes, unless it was renamed away before.
 class TemporaryFile {
   public:
     explicit TemporaryFile(const fs::path& target) {
-        const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-        const std::string extension = target.extension().string();
-        std::string name = (folder / ".skinglow-XXXXXX").string() + extension;
-        const int descriptor = ::mkstemps(name.data(), static_cast<int>(extension.size()));
-        if (descriptor < 0) refuse_write(target, errno, folder_remedy);
+        std::random_device random;
+        int descriptor = -1;
+        while (descriptor < 0) {
+            path_ = folder_of(target) / (".skinglow-" + std::to_string(random()) + target.extension().string());
+            // With the permissions of an ordinary new file, which mkstemp does not give: the kernel applies the
+            // umask, and nobody has to ask for it by changing it.
+            descriptor = ::open(path_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+            if (descriptor < 0 && errno != EEXIST) refuse_write(target, errno, folder_remedy);
+        }
         ::close(descriptor);
-        path_ = name;
     }
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -53,25 +59,16 @@ void flush_to_disk(const fs::path& path, const fs::path& target, int flags) {
     const int failed = ::fsync(descriptor);
     const int error_number = errno;
     ::close(descriptor);
-    // EINVAL: the file system does not flush (some network and FUSE mounts); the rename is whole all the
-    // same.
+    // EINVAL: the file system does not flush (some network and FUSE mounts); the rename is whole all the same.
     if (failed != 0 && error_number != EINVAL)
         refuse_write(target, error_number, "check the disk and its free space");
 }
 
-/// mkstemps makes files for the owner alone; give what an ordinary new file would have.
-void set_ordinary_permissions(const fs::path& path) {
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    std::error_code ignored;  // a file system without permissions has none to set
-    fs::permissions(path, static_cast<fs::perms>(0666U & ~mask), ignored);
-}
-
 /// Where the links lead, also where nothing is yet: fs::canonical wants a file at the end.
 fs::path follow_links(fs::path path) {
-    constexpr int most_links = 40;  // as many as Linux follows
+    constexpr int max_links = 40;  // as many as Linux follows
     std::error_code ignored;
-    for (int i = 0; i < most_links && fs::is_symlink(path, ignored); ++i) {
+    for (int i = 0; i < max_links && fs::is_symlink(path, ignored); ++i) {
         path = path.parent_path() / fs::read_symlink(path, ignored);  // an absolute link replaces the folder
     }
     return path;
@@ -87,11 +84,9 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
     }
     const TemporaryFile temporary(target);
     write(temporary.path());
-    set_ordinary_permissions(temporary.path());
     flush_to_disk(temporary.path(), path, O_RDONLY);
     if (::rename(temporary.path().c_str(), target.c_str()) != 0) refuse_write(path, errno, folder_remedy);
-    flush_to_disk(target.has_parent_path() ? target.parent_path() : fs::path("."), path,
-                  O_RDONLY | O_DIRECTORY);
+    flush_to_disk(folder_of(target), path, O_RDONLY | O_DIRECTORY);
 }
 
 void write_text_atomically(const fs::path& path, std::string_view text) {

@@ -16,7 +16,7 @@ glm::dvec3 unit(const glm::dvec3& v) {
     const int exponent = std::ilogb(max_abs(v));
     const glm::dvec3 scaled(std::scalbn(v.x, -exponent), std::scalbn(v.y, -exponent),
                             std::scalbn(v.z, -exponent));
-    return glm::normalize(scaled);
+    return scaled / glm::length(scaled);
 }
 
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {

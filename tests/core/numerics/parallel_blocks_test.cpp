@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace skinglow {
@@ -32,6 +34,45 @@ TEST(ForEachBlock, ThrowsOnWhatAnyThreadThrows) {
                                     {}),
                      std::runtime_error);
     }
+}
+
+TEST(ForEachBlock, EndsAllThreadsSoonAfterOneThrows) {
+    std::atomic<std::size_t> done = 0;
+    const auto work = [&](std::size_t begin, std::size_t end) {
+        if (begin == 0) throw std::length_error("the first block");
+        done += end - begin;
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
+    };
+    EXPECT_THROW(for_each_block(1000000, 4, work, {}, 1), std::length_error);
+    EXPECT_LT(done, 100000U);
+}
+
+TEST(ForEachBlock, IsCancelledByWhatTheProgressFunctionThrows) {
+    for (const int threads : {1, 4}) {
+        std::atomic<std::size_t> started = 0;
+        int told = 0;
+        const auto cancel = [&](std::size_t) {
+            if (++told == 3) throw std::domain_error("cancelled");
+        };
+        const auto work = [&](std::size_t begin, std::size_t end) { started += end - begin; };
+        EXPECT_THROW(for_each_block(std::size_t{1} << 40U, threads, work, cancel, 128), std::domain_error);
+        EXPECT_EQ(told, 3);
+        EXPECT_GE(started, 3 * 128U);
+    }
+}
+
+TEST(ForEachBlock, TellsItsProgressAscendingOnTheCallingThread) {
+    const auto caller = std::this_thread::get_id();
+    std::vector<std::size_t> told;
+    for_each_block(
+        1000, 3, [](std::size_t, std::size_t) {},
+        [&](std::size_t done) {
+            EXPECT_EQ(std::this_thread::get_id(), caller);
+            told.push_back(done);
+        },
+        10);
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_TRUE(told.empty() || told.back() <= 1000U);
 }
 
 }  // namespace
