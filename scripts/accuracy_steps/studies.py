@@ -28,7 +28,7 @@ class Point:
 
 
 def streams(tissue: sg.Tissue) -> list[Point]:
-    """The task solved with ever more streams, against 64."""
+    """The task with increasing numbers of streams, compared with 64."""
     exact = task.solved(tissue)
     points = []
     for count in STREAMS:
@@ -38,7 +38,7 @@ def streams(tissue: sg.Tissue) -> list[Point]:
 
 
 def streams_on_random_skins(count: int = 60) -> dict[int, float]:
-    """The largest error in the table's norm that each number of streams leaves, against 64."""
+    """Max error in the norm of the table for each number of streams, compared with 64."""
     worst = dict.fromkeys(STREAMS, 0.0)
     for tissue in random_tissues(count, seed=1):
         exact = sg.reference_lut(tissue, 32, 12.0, 64)
@@ -86,7 +86,7 @@ def tolerances(tissue: sg.Tissue) -> list[Point]:
 
 
 def random_tissues(count: int, seed: int) -> list[sg.Tissue]:
-    """Any skin that a Tissue may be."""
+    """Random skins over the full range of all parameters."""
     random = np.random.default_rng(seed)
     return [
         sg.Tissue(
@@ -136,7 +136,7 @@ class RedCurves:
 
 
 def red_curves(name: str, tissue: sg.Tissue) -> RedCurves:
-    """The four methods side by side, red channel; the six Gaussians know no tissue."""
+    """The red channel of the four methods; the six Gaussians are independent of the tissue."""
     nm = sg.SAMPLE_WAVELENGTHS_NM
     exact = sg.transmittance(tissue, task.THICKNESS_MM, nm, streams=32)
     diffusion = sg.diffusion_transmittance(tissue, task.THICKNESS_MM, nm)
