@@ -92,7 +92,7 @@ def test_measuring_in_the_window_can_be_undone(window: Window) -> None:
     assert window["measuring undone and redone"] is True
 
 
-def test_the_lookup_follows_a_moved_lamp(window: Window) -> None:
+def test_the_lookup_follows_a_moved_light(window: Window) -> None:
     assert window["the lookup followed a moved lamp"] is True
 
 
