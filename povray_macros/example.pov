@@ -1,9 +1,9 @@
-// Two thin ears before the same lamps: on the left the existing method, a fixed reddish lookup; on the right the paper's,
-// whose lookup follows the lamps. The lamp behind turns blue with Declare=Blue=1: the left ear stays red.
+// Two thin ears in the same light: the left one uses the existing method, a fixed reddish lookup; the right one that of the
+// paper, whose lookup follows the lights. With Declare=Blue=1 the light behind them is blue: the left ear stays red.
 //
 //   cd povray_macros && povray example.pov +W640 +H480 -D +A0.1 Declare=Blue=1
 //
-// Lengths are in decimeters, so that the lamps stand about 1 from the ears, as in the paper's Table 1; thickness in mm.
+// Lengths are in decimeters, so that the lights are about 1 from the ears, as in the paper's Table 1; thickness in mm.
 
 #version 3.7;
 #include "skinglow.inc"
@@ -15,35 +15,35 @@ global_settings { assumed_gamma 1.0 }
 #declare Max_Thickness = 12;
 #declare Size = 128;
 
-// ---- lamps: one close behind the ears, two before them
+// ---- lights: one close behind the ears, two in front of them
 
-#declare Lamps = 3;
-#declare Kinds = array[Lamps] {"POINT", "POINT", "POINT"}
-#declare Colors = array[Lamps] {(Blue ? <15, 64, 255> / 255 : <255, 112, 69> / 255), <1, 0.9, 0.8>, <0.5, 0.6, 1>}
-#declare Positions = array[Lamps] {<0, 0.35, 0.8>, <-2.5, 2, -3.5>, <3, 1, -3>}
-#declare Powers = array[Lamps] {40, 60, 30}  // W, as in Blender
+#declare Count = 3;
+#declare Kinds = array[Count] {"POINT", "POINT", "POINT"}
+#declare Colors = array[Count] {(Blue ? <15, 64, 255> / 255 : <255, 112, 69> / 255), <1, 0.9, 0.8>, <0.5, 0.6, 1>}
+#declare Positions = array[Count] {<0, 0.35, 0.8>, <-2.5, 2, -3.5>, <3, 1, -3>}
+#declare Powers = array[Count] {40, 60, 30}  // W, as in Blender
 
-// Blender's watts: irradiance P / (4 pi d^2), and a matt surface shows irradiance / pi. POV-Ray's attenuation is
+// Blender's watts: irradiance P / (4 pi d^2), and the radiance of a diffuse surface is irradiance / pi. POV-Ray's attenuation is
 // 2 / (1 + (d / f)^2).
 #declare F = 1e-3;
-#for (K, 0, Lamps - 1)
+#for (K, 0, Count - 1)
     light_source { Positions[K] rgb Colors[K] * Powers[K] / (4 * pi * pi) / (2 * F * F) fade_distance F fade_power 2 }
 #end
 
-// ---- lookups: Eq. 1-3 and the fixed one. Strength: what share of the lamps' light is let in.
+// ---- lookups: Eq. 1-3 and the fixed one. Strength: the fraction of the light that enters.
 
-#declare Light = Skinglow_Light_Weight(Lamps, Kinds, Colors, Positions, Powers, <0, 0, 0>, <1, 0, 1>);
+#declare Light = Skinglow_Light_Weight(Count, Kinds, Colors, Positions, Powers, <0, 0, 0>, <1, 0, 1>);
 #declare Base = Skinglow_Six_Gaussian_Base(Size, Max_Thickness)
 #declare Recolored = Skinglow_Recolor(Base, Skinglow_Blood, Light)
 #declare Fixed = Skinglow_Six_Gaussian(Size, Max_Thickness)
 
-// ---- the ear: two skins, a front with folds and a back, a known thickness apart
+// ---- the ear: a front with folds and a back, separated by a known thickness
 
-#macro Bump(V, Middle, Width)
-    exp(-pow((V - Middle) / Width, 2))
+#macro Bump(V, Center, Width)
+    exp(-pow((V - Center) / Width, 2))
 #end
 
-// mm at R (0 in the middle, 1 at the rim) and Angle (0 behind, pi at the head, radians)
+// mm at R (0 at the center, 1 at the rim) and Angle (0 behind, pi at the head, radians)
 #macro Ear_Thickness(R, Angle)
     ((0.6 + 2.2 * Bump(R, 0.86, 0.09) + 1.8 * Bump(R, 0.5, 0.1) * (1 + cos(Angle)) / 2
       + 3 * Bump(R, 0.7, 0.3) * pow(max(-sin(Angle), 0), 3) + 9 * R * pow(max(-cos(Angle), 0), 6)) * sqrt(max(1 - pow(R, 16), 0)))

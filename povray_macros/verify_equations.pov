@@ -1,5 +1,5 @@
-// Verification of skinglow.inc: Eq. 1-3 for the paper's experiment (its Table 1) against values worked out by hand in
-// exact fractions. Stops with #error where one is off by more than 1e-12 of its size; writes what it found to
+// Verification of skinglow.inc: Eq. 1-3 for the paper's experiment (its Table 1) against values derived by hand in
+// exact fractions. Stops with an #error at a relative difference above 1e-12; writes the results to
 // verify_equations.txt, "name M p E" for M * 2^E.
 //
 //   cd povray_macros && povray verify_equations.pov -D -F
@@ -23,7 +23,7 @@ global_settings { assumed_gamma 1.0 }
     Verify(concat(Name, ".b"), Value.z, Expected.z)
 #end
 
-// Table 1: bytes / 255, each lamp at its distance from the origin in a direction of its own. Coefficients (1, 0, 1).
+// Table 1: bytes / 255, each light at its distance from the origin, in different directions. Coefficients (1, 0, 1).
 #declare Distances = array[3] {0.92357, 0.85231, 1.01292}
 #declare Kinds = array[3] {"POINT", "SPOT", "AREA"}
 #declare Colors = array[3] {<255, 112, 69> / 255, <15, 64, 255> / 255, <1, 1, 1>}

@@ -1,6 +1,6 @@
-// Verification of an exported scene: what the macros make of its base lookup and its lamps, in numbers, to be compared
-// with the LUT that the other host shows. Copy this file beside the scene's lut.inc (mode `paper` or `existing`, glow by
-// macros) and run it there; it writes lut.txt, one entry a line: red, green and blue, each as M p E for M * 2^E.
+// Verification of an exported scene: prints the table that the macros compute from its base lookup and its lights, for
+// comparison with the table of the exporting program. Copy this file next to the scene's lut.inc (mode `paper` or `existing`,
+// glow by macros) and run it there; it writes lut.txt, one entry per line: red, green and blue, each as M p E for M * 2^E.
 //
 //   povray verify_lut.pov -D -F
 

@@ -31,13 +31,13 @@ class Geometry(NamedTuple):
     triangles: np.ndarray  #: (m, 3) int32, counter-clockwise seen from outside
     unit_mm: float
     rays: int
-    min_openness: float  #: min fraction of the sky visible from a far side that lets light in
+    min_sky_visibility: float  #: min fraction of the sky visible from a far side that lets light in
 
     def digest(self) -> str:
         """A digest of everything the thickness depends on."""
         state = hashlib.sha256(self.vertices.tobytes())
         state.update(self.triangles.tobytes())
-        state.update(f"{self.unit_mm} {self.rays} {self.min_openness}".encode())
+        state.update(f"{self.unit_mm} {self.rays} {self.min_sky_visibility}".encode())
         return state.hexdigest()
 
 
@@ -105,7 +105,7 @@ def measure(geometry: Geometry, progress: Callable[[float], bool] | None = None)
         geometry.triangles,
         unit_mm=geometry.unit_mm,
         rays=geometry.rays,
-        min_sky_visibility=geometry.min_openness,
+        min_sky_visibility=geometry.min_sky_visibility,
         progress=progress,
     )
 

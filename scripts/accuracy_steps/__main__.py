@@ -1,4 +1,4 @@
-"""Measures, draws, and fills docs/accuracy.md. scripts/accuracy sets up first."""
+"""Runs the measurements, draws the figures and updates docs/accuracy.md. Run by scripts/accuracy after setup."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import argparse
 import platform
 from pathlib import Path
 
-import lamps
+import light_colors
 import numpy as np
 import page
 import plots
@@ -92,13 +92,13 @@ def methods_section() -> str:
     return "\n\n".join(parts)
 
 
-def lamps_section() -> str:
-    say("lamps")
+def light_colors_section() -> str:
+    say("colored lights")
     rows = [
-        [e.lamp, f"{e.thickness_mm:g}", percent(e.diagonal), percent(e.matrix), percent(e.clipped_matrix)]
-        for e in lamps.lamp_errors(task.THREE_LAYERS)
+        [e.light, f"{e.thickness_mm:g}", percent(e.diagonal), percent(e.matrix), percent(e.clipped_matrix)]
+        for e in light_colors.light_color_errors(task.THREE_LAYERS)
     ]
-    heading = ["lamp", "mm", "RGB by channel", "3x3 matrix", "3x3, lamp clipped to the gamut"]
+    heading = ["light", "mm", "RGB by channel", "3x3 matrix", "3x3, light clipped to the gamut"]
     return page.table(heading, rows)
 
 
@@ -115,12 +115,12 @@ def world_section() -> str:
         for e in worlds.world_errors()
     ]
     angles = [f"{angle} deg" for angle in worlds.ANGLES]
-    heading = ["world; % of the largest irradiance", *angles, "worst of 500", "cut off at 0", "object weight, relative"]
+    heading = ["world; % of the max irradiance", *angles, "worst of 500", "clamped at 0", "object weight, relative"]
     return page.table(heading, rows)
 
 
 def weights_section() -> str:
-    say("weights of lamps")
+    say("weights of lights")
     rows = [
         [
             e.rig,
@@ -135,15 +135,15 @@ def weights_section() -> str:
         ]
         for e in weights.weight_errors()
     ]
-    heading = ["rig", "one weight, RMS", "its bound", "each pixel, RMS", "worst", "terms"]
-    times = ["one weight, ms", "terms, ms", f"exact, {weights.VERTICES:,} places, ms"]
+    heading = ["rig", "per object, RMS", "its bound", "per pixel, RMS", "worst", "terms"]
+    times = ["per object, ms", "terms, ms", f"exact, {weights.VERTICES:,} points, ms"]
     parts = [page.table([*heading, *times], rows)]
     rows = [[s.setting, percent(s.error), f"{s.time_ms:.3f}"] for s in weights.term_steps()]
-    parts.append(page.table(["terms, of 40 lamps", "worst", "ms"], rows))
+    parts.append(page.table(["terms, of 40 lights", "worst", "ms"], rows))
     rows = [[s.setting, number(s.error), f"{s.time_ms:.2f}"] for s in weights.area_steps()]
-    parts.append(page.table(["tolerance of an area lamp's integral", "error", "us a lamp and place"], rows))
+    parts.append(page.table(["tolerance of an area light's integral", "error", "us per light and point"], rows))
     rows = [[s.setting, s.detail, number(s.error), f"{s.time_ms:.1f}"] for s in weights.culling_steps()]
-    parts.append(page.table(["tolerance of culling", "lamps kept", "lost", "ms"], rows))
+    parts.append(page.table(["tolerance of culling", "lights kept", "lost", "ms"], rows))
     return "\n\n".join(parts)
 
 
@@ -153,8 +153,8 @@ def main() -> None:
     say("presets")
     plots.presets(IMAGES / "accuracy_presets.png")
     sections = {
-        "machine": f"Measured with skinglow {sg.__version__} on {platform.machine()}, one thread where nothing else is said, through Python.",
-        "lamps": lamps_section(),
+        "machine": f"Measured with skinglow {sg.__version__} on {platform.machine()}, one thread unless stated, from Python.",
+        "light_colors": light_colors_section(),
         "methods": methods_section(),
         "solver": solver_section(),
         "table": table_section(),
@@ -163,7 +163,7 @@ def main() -> None:
         "weights": weights_section(),
     }
     page.fill(PROJECT / "docs" / "accuracy.md", sections)
-    say("docs/accuracy.md and its figures are written")
+    say("docs/accuracy.md and its figures are up to date")
 
 
 if __name__ == "__main__":

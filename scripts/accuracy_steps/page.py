@@ -1,4 +1,4 @@
-"""Puts measured tables between the markers of a page, and leaves its text alone."""
+"""Replaces the measured tables between the markers of a page; the text around them is unchanged."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ def table(heading: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def fill(path: Path, sections: dict[str, str]) -> None:
-    """Replaces what stands between `<!-- measured: NAME -->` and `<!-- end -->` for each section."""
+    """Replaces the text between `<!-- measured: NAME -->` and `<!-- end -->` for each section."""
     text = path.read_text(encoding="utf-8")
     for name, content in sections.items():
         start, end = f"<!-- measured: {name} -->\n", "<!-- end -->"

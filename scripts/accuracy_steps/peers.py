@@ -1,16 +1,16 @@
-"""What engines use instead of a solved slab, given the same skin."""
+"""The approximations that engines use instead of solving the slab, for the same skin."""
 
 from __future__ import annotations
 
 import numpy as np
 import skinglow as sg
 
-# A slab that lets nothing through, for the reflectance and the decay rate of deep skin.
+# An opaque slab, for the reflectance and the decay rate of deep skin.
 DEEP_MM = (30.0, 31.0)
 
 
 def six_gaussians(thickness_mm: np.ndarray) -> np.ndarray:
-    """The six-Gaussian skin profile as engines use it for translucency, linear RGB, (n, 3). It knows no tissue.
+    """The six-Gaussian skin profile as engines use it for translucency, linear RGB, (n, 3); the same for any tissue.
 
     E. d'Eon, D. Luebke, GPU Gems 3 (2007), ch. 14.
     """
@@ -18,7 +18,7 @@ def six_gaussians(thickness_mm: np.ndarray) -> np.ndarray:
 
 
 def deep_skin(tissue: sg.Tissue, wavelengths_nm: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Reflectance of thick skin lit diffusely, and the rate (1/mm) at which its transmittance falls in the end."""
+    """Reflectance of thick skin lit diffusely, and the asymptotic decay rate of its transmittance, 1/mm."""
     reflectance = np.array(
         [sg.slab(sg.skin_layers(tissue, DEEP_MM[0], nm), "diffuse", streams=16).reflectance for nm in wavelengths_nm]
     )

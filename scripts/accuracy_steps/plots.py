@@ -11,17 +11,17 @@ import task
 from studies import THREADS, Point, RedCurves, TablePoint
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  after the choice of what it draws with
+import matplotlib.pyplot as plt  # noqa: E402  after selecting the backend
 from matplotlib.ticker import LogLocator, StrMethodFormatter  # noqa: E402
 
-# Colors that stay apart for color-blind eyes (M. Okabe, K. Ito, "Color Universal Design", 2008), and marks besides.
+# Colors that color-blind readers can distinguish (M. Okabe, K. Ito, "Color Universal Design", 2008), and markers.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000")
 MARKS = ("o", "s", "^", "D", "v")
 plt.rcParams.update({"font.size": 10, "axes.grid": True, "grid.alpha": 0.3, "legend.fontsize": 9})
 
 
 def _plain_times(axes: plt.Axes) -> None:
-    """1, 2, 5, 10, ... in place of powers; drawing on log axes resets this, so it comes last."""
+    """Labels 1, 2, 5, 10, ... instead of powers. Call last: drawing on log axes resets the labels."""
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axes.xaxis.set_minor_formatter(StrMethodFormatter("{x:g}"))
     axes.xaxis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
@@ -48,7 +48,7 @@ def solver(path: Path, series: dict[str, list[Point]]) -> None:
     """Streams: error against time."""
     figure, axes = plt.subplots(figsize=(7, 4.5))
     _error_against_time(axes, series, labelled=True)
-    axes.set_ylabel(f"largest relative error where T > {task.DARKEST:g}")
+    axes.set_ylabel(f"largest relative error where T > {task.MIN_TRANSMITTANCE:g}")
     axes.set_title("30 wavelengths x 256 thicknesses, by streams per hemisphere")
     _plain_times(axes)
     _save(figure, path)
@@ -96,22 +96,22 @@ def methods(path: Path, panels: list[RedCurves]) -> None:
         ax.set_xlabel("thickness of the skin, mm")
         ax.set_title(panel.tissue)
         ax.set_ylim(1e-5, 1.3)
-    axes[0].set_ylabel("linear red of white light behind it")
+    axes[0].set_ylabel("transmitted red of white light, linear")
     axes[0].legend()
     _save(figure, path)
 
 
 def presets(path: Path) -> None:
-    """How each preset shows white light and three colored lamps, by thickness; each row exposed by itself."""
-    lamps = {"white": (1, 1, 1), "red": (1, 0, 0), "green": (0, 1, 0), "blue": (0, 0, 1)}
-    figure, axes = plt.subplots(len(sg.TISSUE_PRESETS), len(lamps), figsize=(10, 6), sharex=True, squeeze=False)
+    """How each preset shows white light and three colored lights, by thickness; each row has its own exposure."""
+    lights = {"white": (1, 1, 1), "red": (1, 0, 0), "green": (0, 1, 0), "blue": (0, 0, 1)}
+    figure, axes = plt.subplots(len(sg.TISSUE_PRESETS), len(lights), figsize=(10, 6), sharex=True, squeeze=False)
     for row, (name, tissue) in enumerate(sg.TISSUE_PRESETS.items()):
         lut = sg.base_lut(tissue, 256, 6.0)
-        for column, (lamp, light) in enumerate(lamps.items()):
-            # Exposed so that light through 1.5 mm is mid-bright, else the thick end would be black in all.
-            color = np.maximum(sg.recolor(lut, light), 0.0)
+        for column, (light, rgb) in enumerate(lights.items()):
+            # Exposed for a thickness of 1.5 mm, otherwise the thick end would be black everywhere.
+            color = np.maximum(sg.recolor(lut, rgb), 0.0)
             color *= 0.6 / color[64].max()
-            color /= np.maximum(1.0, color.max(axis=1, keepdims=True))  # too bright: as bright as can be
+            color /= np.maximum(1.0, color.max(axis=1, keepdims=True))  # keep the hue of overexposed colors
             encoded = np.where(color <= 0.0031308, 12.92 * color, 1.055 * color ** (1 / 2.4) - 0.055)
             ax = axes[row, column]
             ax.imshow(encoded[None], extent=(0, 6, 0, 1), aspect="auto")
@@ -120,7 +120,7 @@ def presets(path: Path) -> None:
             if column == 0:
                 ax.set_ylabel(name, rotation=0, ha="right", va="center")
             if row == 0:
-                ax.set_title(f"{lamp} lamp")
+                ax.set_title(f"{light} light")
             if row == len(sg.TISSUE_PRESETS) - 1:
                 ax.set_xlabel("thickness, mm")
     _save(figure, path)

@@ -27,7 +27,7 @@ class Point:
 
 
 def streams(tissue: sg.Tissue) -> list[Point]:
-    """The task solved with ever more streams, against 64."""
+    """The task with increasing numbers of streams, compared with 64."""
     exact = task.solved(tissue)
     points = []
     for count in STREAMS:
@@ -37,7 +37,7 @@ def streams(tissue: sg.Tissue) -> list[Point]:
 
 
 def streams_on_random_skins(count: int = 60) -> dict[int, float]:
-    """The largest error in the table's norm that each number of streams leaves, against 64."""
+    """Max error in the norm of the table for each number of streams, compared with 64."""
     random = np.random.default_rng(4)
     worst = dict.fromkeys(STREAMS, 0.0)
     for tissue in random_tissues(count, seed=1):
@@ -76,7 +76,7 @@ def tolerances(tissue: sg.Tissue) -> list[TablePoint]:
 
 
 def random_tissues(count: int, seed: int) -> list[sg.Tissue]:
-    """Any skin that a Tissue may be; every second one at a corner of the parameters' ranges."""
+    """Random skins over the full range of all parameters, every second one at a corner of the ranges."""
     random = np.random.default_rng(seed)
     ranges = {name: (minimum, maximum) for name, (_, minimum, maximum, _, _) in sg.TISSUE_PARAMETERS.items()}
     return [
@@ -122,7 +122,7 @@ class RedCurves:
 
 
 def red_curves(name: str, tissue: sg.Tissue) -> RedCurves:
-    """The four methods side by side, red channel; the six Gaussians know no tissue."""
+    """The red channel of the four methods; the six Gaussians are independent of the tissue."""
     nm = sg.SAMPLE_WAVELENGTHS_NM
     exact = sg.transmittance(tissue, task.THICKNESS_MM, nm, streams=32)
     approximate = diffusion.transmittance(tissue, task.THICKNESS_MM, nm)

@@ -1,4 +1,4 @@
-"""The task that every method is given: how much light comes through skin, by thickness and wavelength."""
+"""The common task of all methods: transmittance of skin by thickness and wavelength."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ Result = TypeVar("Result")
 WAVELENGTHS_NM = np.linspace(400.0, 700.0, 30)
 THICKNESS_MM = np.linspace(0.0, 12.0, 256)
 REFERENCE_STREAMS = 64
-# Below this much light nothing is compared: no picture shows it.
-DARKEST = 1e-6
+# Smaller transmittances are not compared: they are invisible.
+MIN_TRANSMITTANCE = 1e-6
 
 THREE_LAYERS = sg.TISSUE_PRESETS["light"]
 ONE_LAYER = THREE_LAYERS.replace(epidermal_thickness_mm=0.0)
@@ -28,13 +28,13 @@ def solved(tissue: sg.Tissue, streams: int = REFERENCE_STREAMS, threads: int = 0
 
 
 def largest_relative_error(found: np.ndarray, exact: np.ndarray) -> float:
-    """Wherever at least DARKEST comes through."""
-    seen = exact > DARKEST
+    """Over all entries with a transmittance above MIN_TRANSMITTANCE."""
+    seen = exact > MIN_TRANSMITTANCE
     return float(np.max(np.abs(found[seen] / exact[seen] - 1.0)))
 
 
 def timed(function: Callable[[], Result], budget_s: float = 1.0) -> tuple[Result, float]:
-    """What a function returns, and its shortest time in ms over as many runs as fit the budget (3 to 50)."""
+    """The result of a function, and its min time in ms over as many runs as fit the budget (3 to 50)."""
     shortest = np.inf
     start = time.perf_counter()
     for run in range(50):

@@ -1,4 +1,4 @@
-"""What nine coefficients leave out of a world: irradiance on surfaces that face many ways, against the integral."""
+"""Truncation error of nine coefficients: irradiance of a world for many normals, compared with the full integral."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 import skinglow as sg
 
 HEIGHT = 512
-#: Where the sun stands, unit.
+#: Direction to the sun, unit vector.
 SUN = np.array((0.6, 0.0, 0.8))
 #: Angles of a surface's normal to the sun, degrees, in the sun's vertical plane.
 ANGLES = (0, 45, 90, 135, 180)
@@ -16,12 +16,12 @@ ANGLES = (0, 45, 90, 135, 180)
 
 @dataclass
 class WorldError:
-    """Errors as shares of the largest irradiance that any surface has in this world."""
+    """Errors relative to the max irradiance over all normals in this world."""
 
     world: str
-    at_angles: list[float]  #: signed, nine coefficients less the integral
+    at_angles: list[float]  #: signed, nine coefficients minus the integral
     worst: float  #: of 500 normals all around
-    negative: float  #: share of those normals where nine coefficients would be below 0 and are cut off there
+    negative: float  #: fraction of those normals where nine coefficients are negative and clamped at 0
     object_weight: float  #: of the mean over all normals, relative
 
 
@@ -34,14 +34,14 @@ def _directions() -> np.ndarray:
 def worlds(d: np.ndarray) -> dict[str, np.ndarray]:
     """Radiance by direction, one channel; directions (height, width, 3) from the top row down."""
     z = d[..., 2]
-    # Bright at the horizon, a third of it at the zenith, ground of a tenth: of no place in particular.
+    # Bright at the horizon, a third of that at the zenith, a tenth on the ground: a generic sky.
     sky = np.where(z > 0.0, 1.0 - 2.0 / 3.0 * np.abs(z), 0.1)
 
-    def with_sun(radius_degrees: float, share: float) -> np.ndarray:
-        """The sky with a disc that gives that share of the irradiance on a surface facing it."""
+    def with_sun(radius_degrees: float, fraction: float) -> np.ndarray:
+        """The sky with a disk that contributes that fraction of the irradiance on a surface facing it."""
         disc = d @ SUN > np.cos(np.radians(radius_degrees))
         facing = np.maximum(d @ SUN, 0.0)
-        return sky + disc * _integral(sky * facing) / _integral(disc * facing) * share / (1.0 - share)
+        return sky + disc * _integral(sky * facing) / _integral(disc * facing) * fraction / (1.0 - fraction)
 
     return {
         "constant": np.ones_like(z),
@@ -70,7 +70,7 @@ def _normals() -> tuple[np.ndarray, np.ndarray]:
 
 
 def world_errors() -> list[WorldError]:
-    """Each world on each normal. The integral is over the same pixels, so that what is seen is the bands left out."""
+    """Each world for each normal. The integral is over the same pixels, so the error is that of the omitted bands."""
     d = _directions()
     listed, around = _normals()
     found = []

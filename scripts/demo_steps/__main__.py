@@ -1,4 +1,4 @@
-"""The demo: a real head lit from behind, in Blender and POV-Ray. scripts/demo sets up first."""
+"""The demo: a head lit from behind, in Blender and POV-Ray. Run by scripts/demo after setup."""
 
 from __future__ import annotations
 
@@ -20,23 +20,29 @@ from progress import DemoError, Progress
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="scripts/demo",
-        description="Lights a head from behind and shows, in Blender and POV-Ray, how it glows in the lamps' color.",
-        epilog="example: scripts/demo ../shared/data/heads/LeePerrySmith.glb --unit 50.35",
+        description="Lights a head from behind; in Blender and POV-Ray it glows in the color of the lights.",
+        epilog="example: scripts/demo LeePerrySmith.glb --unit 50.35",
     )
-    parser.add_argument("mesh", nargs="?", help="a GLB, OBJ or PLY file (default: MakeHuman's CC0 base mesh)")
-    parser.add_argument("--mesh", dest="named_mesh", metavar="FILE|suzanne", help="the same; `suzanne` is Blender's")
+    parser.add_argument("mesh", nargs="?", help="GLB, OBJ or PLY file (default: MakeHuman's CC0 base mesh)")
+    parser.add_argument(
+        "--mesh", dest="named_mesh", metavar="FILE|suzanne", help="the same; `suzanne` is Blender's monkey"
+    )
     parser.add_argument("--unit", type=float, metavar="MM", help="millimeters per unit of the file")
-    parser.add_argument("--rig", type=Path, metavar="FILE", help="lamps in place of Blender's rim.sl: .json or .sl")
-    parser.add_argument("--color-map", type=Path, metavar="FILE", help="base color of the skin, by the mesh's UVs")
-    parser.add_argument("--normal-map", type=Path, metavar="FILE", help="tangent-space normals, by the mesh's UVs")
+    parser.add_argument("--rig", type=Path, metavar="FILE", help="light rig instead of Blender's rim.sl: .json or .sl")
+    parser.add_argument(
+        "--color-map", type=Path, metavar="FILE", help="base color texture of the skin, in the UVs of the mesh"
+    )
+    parser.add_argument(
+        "--normal-map", type=Path, metavar="FILE", help="tangent-space normal map, in the UVs of the mesh"
+    )
     parser.add_argument(
         "--blender",
         metavar="PROGRAM",
-        help="a Blender program or a Python with bpy, for the default's",
+        help="Blender program or Python with bpy, instead of the default",
     )
     parser.add_argument("--size", type=int, default=640, metavar="PIXELS", help="width and height (default 640)")
-    parser.add_argument("--samples", type=int, default=64, help="Cycles samples a pixel (default 64)")
-    parser.add_argument("--out", type=Path, default=Path("out"), help="where everything goes (default out/)")
+    parser.add_argument("--samples", type=int, default=64, help="Cycles samples per pixel (default 64)")
+    parser.add_argument("--out", type=Path, default=Path("out"), help="output folder (default out/)")
     return parser.parse_args()
 
 
@@ -69,7 +75,7 @@ def main() -> None:
     numbers["seconds"] = round(time.monotonic() - started, 1)
     (out / "numbers.json").write_text(json.dumps(numbers, indent=1))
     page.write(out, numbers)
-    progress.say(f"done in {numbers['seconds']:.0f} s. Look at {out / 'index.html'}")
+    progress.say(f"done in {numbers['seconds']:.0f} s: open {out / 'index.html'}")
 
 
 if __name__ == "__main__":

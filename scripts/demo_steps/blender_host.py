@@ -14,7 +14,7 @@ from progress import DemoError, Progress
 
 STEPS = Path(__file__).resolve().parent
 PROJECT = STEPS.parents[1]
-PACKAGE = PROJECT / "build" / "envs" / "site"  # the core for full programs, which have a Python of their own
+PACKAGE = PROJECT / "build" / "envs" / "site"  # the core for full Blender programs, which have their own Python
 MARK = "@skinglow "
 
 
@@ -27,11 +27,11 @@ class Host:
 
     @classmethod
     def find(cls, program: str | None) -> Host:
-        """The program asked for, else the bpy wheel that scripts/setup installed."""
+        """The given program, or the bpy wheel installed by scripts/setup."""
         program = program or str(PROJECT / "build" / "envs" / "blender" / "bin" / "python")
         found = shutil.which(program)
         if found is None:
-            raise DemoError(f"--blender {program}: no such program; leave the option out to use the bpy wheel")
+            raise DemoError(f"--blender {program}: no such program; omit the option to use the bpy wheel")
         about = subprocess.run([found, "--version"], capture_output=True, text=True).stdout
         full = about.startswith("Blender")
         ask = (
@@ -42,12 +42,14 @@ class Host:
         answer = subprocess.run(command, capture_output=True, text=True, timeout=120)
         line = next((x for x in answer.stdout.splitlines() if x.startswith("ASK ")), None)
         if line is None:
-            raise DemoError(f"--blender {program}: no Blender and no Python with bpy: {answer.stderr.strip()[-200:]}")
+            raise DemoError(
+                f"--blender {program}: neither Blender nor a Python with bpy: {answer.stderr.strip()[-200:]}"
+            )
         version, datafiles = line.removeprefix("ASK ").split(" | ")
         return cls(found, full, version.strip(), Path(datafiles))
 
     def run(self, script: str, job: dict[str, Any], progress: Progress) -> dict[str, Any]:
-        """Runs a script of this folder with a job; shows the steps it reports and returns its result."""
+        """Runs a script of this folder with a job; prints its progress and returns its result."""
         with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
             json.dump({**job, "host": self.version}, file)
             file.flush()
@@ -74,15 +76,15 @@ class Host:
             assert running.stdout is not None
             for line in running.stdout:
                 if not line.startswith(MARK):
-                    if not line.startswith("Fra:"):  # Cycles counts every sample
+                    if not line.startswith("Fra:"):  # Cycles' progress
                         progress.note(line)
                     continue
                 message = json.loads(line.removeprefix(MARK))
                 if "result" in message:
                     result = message["result"]
-                    running.kill()  # the 4.5 wheel never ends by itself; all files are closed by now
+                    running.kill()  # the 4.5 wheel hangs on exit; all files are closed by now
                 else:
                     progress.say(message["step"], message["done"], message["of"])
         if result is None:
-            raise DemoError(f"Blender {self.version} stopped early; what it said is in {progress.log}")
+            raise DemoError(f"Blender {self.version} stopped early; its output is in {progress.log}")
         return result

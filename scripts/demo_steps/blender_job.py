@@ -15,7 +15,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "blender_addon")]
 JOB: dict[str, Any] = json.loads(Path(sys.argv[-1]).read_text())
 if JOB["package"]:
-    sys.path.append(JOB["package"])  # last: a full Blender has a numpy of its own
+    sys.path.append(JOB["package"])  # last: a full Blender has its own numpy
 
 import bpy  # noqa: E402
 
@@ -27,16 +27,16 @@ from job_steps import Steps  # noqa: E402
 OUT = Path(JOB["out"])
 MODES = ("existing", "paper")
 WEIGHTS = ("object", "surface")  # of mode physical
-# Lookups are dark at an ear's 3 to 8 mm; shaders that use them scale them up by hand, and so does the demo, by one
-# factor for both modes, stated in the page.
+# Lookups are dark at the 3 to 8 mm of an ear; shaders that use them scale them up by hand. So does the demo, by one
+# factor for both modes, which the page states.
 STRENGTH = 20.0
-# What comes through skin is dark beside what lights it directly: the picture of mode physical is exposed for it.
+# Transmitted light is dark compared with direct light: the picture of mode physical is exposed for it.
 EXPOSURE_STOPS = 2.0
-ORANGE, BLUE = (1.0, 112 / 255, 69 / 255), (15 / 255, 64 / 255, 1.0)  # two lamps of Table 1
+ORANGE, BLUE = (1.0, 112 / 255, 69 / 255), (15 / 255, 64 / 255, 1.0)  # two lights of Table 1
 
 
 class Studio:
-    """The scene and what has been made of it."""
+    """The scene and the results so far."""
 
     def __init__(self) -> None:
         self.scene = stage.empty_scene()
@@ -57,7 +57,7 @@ class Studio:
         bpy.ops.render.render(write_still=True)
 
     def show(self, name: str) -> None:
-        """Both modes under the lamps that are there: the head, the ear, and the table that they show."""
+        """Renders head and ear in both modes with the current lights, and records the tables."""
         for mode in MODES:
             sb.make_skin(self.head, mode=mode)
             self.tables[f"{name}_{mode}"] = sb.lut(self.head, bpy.context.evaluated_depsgraph_get())
@@ -66,8 +66,8 @@ class Studio:
         self.lights[name] = sb.light_report(self.head, bpy.context.evaluated_depsgraph_get())
 
     def show_physical(self) -> None:
-        """Mode physical, W/m^2 unscaled, a lamp behind the ear: one weight for the head, and light at each pixel."""
-        stage.lamp_behind_ear(self.scene, self.head)
+        """Mode physical, W/m^2 unscaled, a light behind the ear: lit per object and per pixel."""
+        stage.light_behind_ear(self.scene, self.head)
         self.scene.view_settings.exposure = EXPOSURE_STOPS
         for weights in WEIGHTS:
             sb.make_skin(self.head, mode="physical", weights=weights, strength=1.0)
@@ -75,14 +75,14 @@ class Studio:
                 self.render(f"physical_{weights}{view}.png", view)
         self.lights["physical"] = sb.light_report(self.head, bpy.context.evaluated_depsgraph_get())
 
-    def render_light_through(self) -> None:
-        """The glow alone, as linear EXR: one box per pixel as in POV-Ray, alpha for the outline."""
+    def render_transmitted_light(self) -> None:
+        """Renders only the glow, as linear EXR: a box filter as in POV-Ray, alpha for the outline."""
         scene, settings = self.scene, self.scene.render.image_settings
         kept = scene.cycles.pixel_filter_type, scene.cycles.samples
         scene.cycles.pixel_filter_type, scene.cycles.samples = "BOX", 64
         scene.render.film_transparent = True
         settings.file_format, settings.color_depth, settings.color_mode = "OPEN_EXR", "32", "RGBA"
-        with stage.light_through_alone(self.head):
+        with stage.transmitted_light_only(self.head):
             self.render("light_through_blender.exr", "_ear")
         settings.file_format, settings.color_depth, settings.color_mode = "PNG", "8", "RGB"
         bpy.data.images["Render Result"].save_render(str(OUT / "light_through_blender.png"))
@@ -95,19 +95,19 @@ def main() -> dict[str, Any]:
     step = Steps(of=9)
     step("loading the head")
     studio = Studio()
-    stage.place_rig(studio.scene, JOB["rigs"]["table1"], studio.center)
-    step(f"measuring the thickness of the skin at {len(studio.head.data.vertices):,} points")
+    stage.add_rig(studio.scene, JOB["rigs"]["table1"], studio.center)
+    step(f"measuring the thickness of the skin at {len(studio.head.data.vertices):,} vertices")
     state = sb.make_skin(studio.head, mode="paper", strength=STRENGTH)
     bpy.ops.wm.save_as_mainfile(filepath=str(OUT / "head.blend"))
 
-    step("Cycles: Table 1's lamps")
+    step("Cycles: lights of Table 1")
     studio.show("table1")
-    step("Cycles: the light coming through, alone")
-    studio.render_light_through()
-    step("writing the scene for POV-Ray")
+    step("Cycles: transmitted light only")
+    studio.render_transmitted_light()
+    step("exporting the scene to POV-Ray")
     studio.scene.camera = studio.cameras[""]
     sb.export_povray(bpy.context.evaluated_depsgraph_get(), OUT / "povray")
-    # The second opinion: the lookup is POV-Ray's own work, by the macros, from the lamps and the base.
+    # For cross-checking, the POV-Ray macros compute the lookup themselves, from the lights and the base.
     studio.scene.camera = studio.cameras["_ear"]
     sb.export_povray(
         bpy.context.evaluated_depsgraph_get(), OUT / "povray_light_through", surface=False, compute_lut=True
@@ -116,13 +116,13 @@ def main() -> dict[str, Any]:
     for name in ("Light1", "Light3"):
         bpy.data.objects.remove(bpy.data.objects[name])
     for color, values in (("orange", ORANGE), ("blue", BLUE)):
-        step(f"Cycles: one lamp behind the ear, {color}")
+        step(f"Cycles: {color} light behind the ear")
         bpy.data.objects["Light2"].data.color = values
         studio.show(color)
     step("Cycles: the rim lights")
-    stage.place_rig(studio.scene, JOB["rigs"]["rim"], studio.center)
+    stage.add_rig(studio.scene, JOB["rigs"]["rim"], studio.center)
     studio.show("rim")
-    step("Cycles: mode physical, a lamp behind the ear")
+    step("Cycles: mode physical, a light behind the ear")
     studio.show_physical()
     np.savez(OUT / "tables.npz", **studio.tables)
     return {
@@ -139,7 +139,7 @@ def main() -> dict[str, Any]:
 try:
     print("@skinglow " + json.dumps({"result": main()}, default=np.ndarray.tolist), flush=True)
     code = 0
-except BaseException:  # whatever it was: left to itself, the 4.5 wheel would not end but wait for ever in a destructor
+except BaseException:  # any error: on a normal exit the 4.5 wheel would hang in a destructor
     traceback.print_exc()
     code = 1
 sys.stdout.flush()

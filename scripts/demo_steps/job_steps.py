@@ -1,4 +1,4 @@
-"""Runs inside Blender: tells blender_host what is done and how far it is."""
+"""Runs inside Blender: reports progress to blender_host."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import json
 
 
 class Steps:
-    """Says each step in a line that blender_host understands."""
+    """Prints each step as a line for blender_host."""
 
     def __init__(self, of: int) -> None:
         self.done, self.of = 0, of

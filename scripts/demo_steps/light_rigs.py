@@ -1,4 +1,4 @@
-"""The lamps: Blender's rim.sl (or a rig of the user's) and the three of the paper's Table 1."""
+"""The light rigs: Blender's rim.sl (or the user's rig) and the three lights of the paper's Table 1."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from typing import Any
 from blender_host import PROJECT, Host
 from progress import DemoError, Progress
 
-CLI = PROJECT / "build" / "release" / "core" / "cli" / "skinglow"
+CLI = PROJECT / "build" / "release" / "bin" / "skinglow"
 TABLE1 = PROJECT / "tests" / "data" / "table1.json"
-CAMERA_AZIMUTH_DEGREES = 35.0  # off the front, so that an ear stands before the lamps behind
+CAMERA_AZIMUTH_DEGREES = 35.0  # from the front, so that an ear is in front of the rim lights
 
 
 def gather(own: Path | None, host: Host, progress: Progress) -> dict[str, Any]:
@@ -21,12 +21,12 @@ def gather(own: Path | None, host: Host, progress: Progress) -> dict[str, Any]:
     rim = own or host.datafiles / "studiolights" / "studio" / "rim.sl"
     if not rim.is_file():
         raise DemoError(f"{rim}: no such file; give a light rig with --rig")
-    progress.say(f"the lamps: {rim.name} and Table 1 of the paper")
+    progress.say(f"lights: {rim.name} and Table 1 of the paper")
     return {"rim": _read(rim), "table1": _read(TABLE1)}
 
 
 def _read(rig: Path) -> dict[str, Any]:
-    """The rig as the command line understands it; a studio light hangs on the demo's camera."""
+    """The rig as read by the command line; a studio light is attached to the demo's camera."""
     camera = ["--camera-rotation", "90", "0", str(CAMERA_AZIMUTH_DEGREES)] if rig.suffix == ".sl" else []
     with tempfile.TemporaryDirectory() as folder:
         plain = Path(folder) / "rig.json"

@@ -1,4 +1,4 @@
-"""index.html: everything the demo made, on one page that needs nothing but the files beside it."""
+"""index.html: all results of the demo on one page, which refers only to files in its folder."""
 
 from __future__ import annotations
 
@@ -21,41 +21,41 @@ def write(out: Path, numbers: dict[str, Any]) -> None:
     parts = [
         "<!doctype html><html lang=en><meta charset=utf-8><title>Skinglow</title>",
         f"<style>{STYLE}</style><h1>Skin that glows in the color of your lights</h1>",
-        f"<p>{html.escape(head['name'])} at {head['unit_mm']:g} mm per unit, {numbers['vertices']:,} points; "
+        f"<p>{html.escape(head['name'])} at {head['unit_mm']:g} mm per unit, {numbers['vertices']:,} vertices; "
         f"{html.escape(head['license'])}. Rendered by Blender {html.escape(numbers['blender'])} (Cycles) and "
         f"POV-Ray in {numbers['seconds']:.0f} s. Glow strength {numbers['strength']:g} in modes existing and paper, "
         "1 in mode physical.</p>",
         picture(
             "existing_and_proposed.png",
-            "Existing against proposed",
-            "The same head and lamps. The existing lookup is a fixed red; the proposed one is recolored.",
+            "Existing and proposed method",
+            "The same head and lights. The existing lookup is a fixed red; the proposed one is recolored.",
         ),
         picture(
             "color_change.png",
-            "A lamp changes color",
-            "The lamp behind the ear turns from orange to blue. The existing glow stays as it was.",
+            "A light changes color",
+            "The light behind the ear changes from orange to blue. The existing glow stays the same.",
         ),
         picture(
             "lookups.png",
             "The lookup images",
-            "What the skin lets through at each thickness, per set of lamps.",
+            "Transmitted light by thickness, for each set of lights.",
         ),
-        picture("rim.png", "Rim lights", "Blender's own studio light, or the rig given with --rig."),
+        picture("rim.png", "Rim lights", "Blender's studio light, or the rig given with --rig."),
         picture(
             "physical.png",
-            "Mode physical: the light of one lamp behind the ear",
-            "The skin's own optics times the irradiance on its far side, W/m^2, nothing scaled by hand; exposed by "
-            f"{numbers['exposure_stops']:g} stops more. One weight for the whole head also lights what the lamp does "
-            "not reach (the corners of the eyes); weights on the surface know where the lamp is.",
+            "Mode physical: a single light behind the ear",
+            "The transmittance of the skin times the irradiance on its far side, W/m^2, nothing scaled by hand; "
+            f"exposure +{numbers['exposure_stops']:g} stops. Lighting per object also lights what the light does not "
+            "reach (the corners of the eyes); lighting per pixel does not.",
         ),
         picture(
             "blender_and_povray.png",
             "The same light in Blender and in POV-Ray",
-            "The light coming through alone, as linear EXR, antialiasing edges left out: "
-            f"RMS {compared['rms']:.2e}, largest {compared['max']:.2e}; "
-            f"{within} the 1/255 = {compared['allowed_rms']:.2e} asked for.",
+            "Transmitted light only, as linear EXR, without antialiased edges: "
+            f"RMS {compared['rms']:.2e}, max {compared['max']:.2e}; "
+            f"{within} the 1/255 = {compared['allowed_rms']:.2e} allowed.",
         ),
-        "<h2>What each lamp gives (Eq. 2 and 3)</h2>",
+        "<h2>Contribution of each light (Eq. 2 and 3)</h2>",
         *(lights(title, numbers["lights"][key]) for key, title in (("table1", "Table 1"), ("rim", "Rim"))),
         "<p>All figures: <a href=numbers.json>numbers.json</a>. "
         "The scene: <a href=head.blend>head.blend</a>, <a href=povray/scene.pov>povray/scene.pov</a>. "
@@ -69,7 +69,7 @@ def picture(file: str, title: str, text: str) -> str:
 
 
 def lights(title: str, rows: list[dict[str, Any]]) -> str:
-    head = "<tr><th>light<th>distance, m<th>R<th>G<th>B<th>share<th>"
+    head = "<tr><th>light<th>distance, m<th>R<th>G<th>B<th>fraction<th>"
     body = "".join(
         f"<tr><td>{html.escape(row['name'])}<td>{_number(row['distance'])}"
         + "".join(f"<td>{value:.5f}" for value in row["weight"])

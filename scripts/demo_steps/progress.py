@@ -1,4 +1,4 @@
-"""What the demo does and how far it is, on the screen; everything else in a log."""
+"""Progress on the terminal; everything else goes to a log."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 
 class DemoError(Exception):
-    """What went wrong and what to do about it, in one sentence."""
+    """An error message with a remedy, in one sentence."""
 
 
 class Progress:

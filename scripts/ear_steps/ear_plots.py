@@ -9,17 +9,17 @@ import numpy as np
 from study import METHODS, Study
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  after the choice of what it draws with
+import matplotlib.pyplot as plt  # noqa: E402  after selecting the backend
 from matplotlib.ticker import LogLocator, PercentFormatter, StrMethodFormatter  # noqa: E402
 
-# Colors that stay apart for color-blind eyes (M. Okabe, K. Ito, "Color Universal Design", 2008), and marks besides.
+# Colors that color-blind readers can distinguish (M. Okabe, K. Ito, "Color Universal Design", 2008), and markers.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000")
 MARKS = ("o", "s", "^", "D", "v")
 TITLES = {
     "existing": "existing",
     "paper": "paper",
-    "object": "physical,\nobject weight",
-    "surface": "physical,\nsurface weights",
+    "object": "physical,\nper object",
+    "surface": "physical,\nper pixel",
 }
 MARGIN = 6
 
@@ -34,21 +34,23 @@ def error_against_time(path: Path, study: Study) -> None:
         "-",
         color=COLORS[4],
         linewidth=1,
-        label="its noise, falling as the root of its samples",
+        label="its noise, by 1 / sqrt(samples)",
     )
     axes.loglog(study.walk_seconds, [e.rms for e in study.walk_errors], MARKS[4], color=COLORS[4], label="random walk")
     for result, color, mark in zip(study.methods, COLORS, MARKS, strict=False):
         axes.loglog(result.seconds, result.at_best.rms, mark, color=color, markersize=9, label=METHODS[result.name])
         if result.name in ("object", "surface"):
             axes.loglog(result.seconds, result.as_it_is.rms, mark, color=color, markersize=9, fillstyle="none")
-    # Plain numbers in place of powers of ten; drawing on log axes resets this, so it comes last.
+    # Plain numbers instead of powers of ten. Last, since drawing on log axes resets them.
     for axis, form in ((axes.xaxis, StrMethodFormatter("{x:g}")), (axes.yaxis, PercentFormatter(1.0, decimals=0))):
         axis.set_major_formatter(form)
         axis.set_minor_formatter(form)
         axis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
     axes.set_xlabel("CPU time of the render, s")
-    axes.set_ylabel("RMS error over the mean")
-    axes.set_title("The back-lit ear against the converged walk\n(filled: at the best strength; hollow: as it is)")
+    axes.set_ylabel("RMS error / mean")
+    axes.set_title(
+        "The back-lit ear compared with the converged random walk\n(filled: best strength; hollow: unscaled)"
+    )
     axes.legend()
     axes.grid(True, which="both", alpha=0.3)
     figure.tight_layout()
@@ -57,7 +59,7 @@ def error_against_time(path: Path, study: Study) -> None:
 
 
 def row_of_pictures(path: Path, study: Study) -> None:
-    """Each method at its best strength beside a walk given the same time, and the converged walk."""
+    """Each method at its best strength, a random walk in equal time, and the converged random walk."""
     rows, columns = np.nonzero(study.ear)
     height, width = study.ear.shape
     box = (
@@ -80,6 +82,6 @@ def row_of_pictures(path: Path, study: Study) -> None:
 
 
 def to_screen(linear: np.ndarray) -> np.ndarray:
-    """Linear Rec.709 to sRGB's curve (IEC 61966-2-1), clipped to what a screen shows."""
+    """Linear Rec.709 to sRGB's curve (IEC 61966-2-1), clipped to 0 to 1."""
     light = np.clip(linear, 0.0, 1.0)
     return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)

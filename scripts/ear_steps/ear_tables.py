@@ -21,7 +21,7 @@ def compared(study: Study) -> str:
     numbers, cost = study.numbers, study.cost
     rows = []
     for m in study.methods:
-        reach = cost.seconds_to(m.at_best.rms)
+        equal = cost.seconds_to(m.at_best.rms)
         rows.append(
             [
                 METHODS[m.name],
@@ -30,36 +30,37 @@ def compared(study: Study) -> str:
                 percent(m.at_best),
                 percent(m.thin),
                 seconds(m.seconds),
-                f"{seconds(reach)} ({cost.samples_to(m.at_best.rms):.0f} samples)",
-                f"{reach / m.seconds:.0f}x",
+                f"{seconds(equal)} ({cost.samples_to(m.at_best.rms):.0f} samples)",
+                f"{equal / m.seconds:.0f}x",
                 percent(m.bounced),
             ]
         )
     heading = [
         "method",
-        "error as it is",
+        "error unscaled",
         "best strength",
-        "error at it",
+        "error at best strength",
         f"of skin up to {THIN_MM:g} mm",
         "CPU time",
-        "random walk to that error",
+        "random walk with equal error",
     ]
-    heading += ["times", "error against walks with bounces"]
+    heading += ["ratio", "error with interreflection"]
     walk = [
         [f"{n}", percent(e), seconds(s)]
         for n, e, s in zip(study.counts, study.walk_errors, study.walk_seconds, strict=True)
     ]
     core = numbers["core_seconds"]
     gain = study.bounced.mean.mean() / study.reference.mean.mean()
+    size = study.ear.shape[0]
     about = (
-        f"{numbers['head']}, {numbers['vertices']:,} points, {study.ear.shape[0]} pixels square, of which the back-lit "
-        f"ear has {int(study.ear.sum()):,}; Blender {numbers['blender']}. The reference, two walks of "
-        f"{numbers['samples']} samples each, has {100 * study.reference.noise:.0f} % noise left, which is taken out. "
-        f"CPU time is that of the whole render call; a walk's is {seconds(cost.fixed)} and {cost.each:.3g} s for each "
-        f"sample a pixel. A lookup besides costs, once for a mesh, "
-        f"{seconds(core['thickness'])} for its thickness; {seconds(core['tables'])} for the tables; and, with surface "
-        f"weights, {seconds(core['far_side'])} at each change of lamps. Light that goes on from skin to skin "
-        f"makes the ear {gain:.2f} times as bright."
+        f"{numbers['head']}, {numbers['vertices']:,} vertices, {size} x {size} pixels, of which "
+        f"{int(study.ear.sum()):,} show the back-lit ear; Blender {numbers['blender']}. The reference, two walks of "
+        f"{numbers['samples']} samples each, has {100 * study.reference.noise:.0f} % residual noise, which is "
+        f"subtracted. CPU time is that of the whole render call; for a walk it is {seconds(cost.fixed)} plus "
+        f"{cost.each:.3g} s per sample per pixel. A lookup additionally costs {seconds(core['thickness'])} once per "
+        f"mesh for its thickness, {seconds(core['tables'])} for the tables and, if lit per pixel, "
+        f"{seconds(core['far_side'])} per change of the lights. Interreflection makes the ear {gain:.2f} times as "
+        f"bright."
     )
     return "\n\n".join(
         [about, page.table(heading, rows), page.table(["random walk, samples", "error", "CPU time"], walk)]
@@ -71,18 +72,18 @@ def thickness(study: Study) -> str:
         [
             f"{b.low:g} - {b.high:g}" if b.high < 1e9 else f"over {b.low:g}",
             f"{b.pixels}",
-            f"{100 * b.share_of_light:.0f} %",
-            f"{100 * b.share_of_error:.0f} %",
+            f"{100 * b.fraction_of_light:.0f} %",
+            f"{100 * b.fraction_of_error:.0f} %",
             f"{b.walk_over['surface']:.2f} ± {b.standard_error:.3f}",
             f"{b.walk_over['view']:.2f}",
             f"{b.walk_over['object']:.2f}",
         ]
         for b in study.bins()
     ]
-    heading = ["thickness, mm", "pixels", "of the walk's light", "of surface weights' squared error"]
-    heading += ["red of the walk over surface weights", "over the slab at the view's angle", "over object weight"]
+    heading = ["thickness, mm", "pixels", "fraction of the walk's light", "fraction of the squared error per pixel"]
+    heading += ["red of the walk over per pixel", "over the slab at the view angle", "over per object"]
     limits = [[limit.name, percent(limit.error), percent(limit.thin)] for limit in study.limits()]
-    at_best = ["what would come nearer", "error at its best strength", f"of skin up to {THIN_MM:g} mm"]
+    at_best = ["hypothetical method", "error at best strength", f"of skin up to {THIN_MM:g} mm"]
     return "\n\n".join([page.table(heading, rows), page.table(at_best, limits)])
 
 
@@ -92,5 +93,5 @@ def slab(study: Study) -> str:
         ratios = zip(row["over_solver"], row["standard_error"], strict=True)
         over = [f"{ratio:.3f} ± {error:.3f}" for ratio, error in ratios]
         rows.append([f"{row['degrees']:g}°", *over, " / ".join(f"{x:.2f}" for x in row["over_diffuse"])])
-    heading = ["seen at", "red: walk over solver", "green", "blue", "over diffuse light's table, R / G / B"]
+    heading = ["view angle", "red: walk over solver", "green", "blue", "over the table for diffuse light, R / G / B"]
     return page.table(heading, rows)

@@ -1,4 +1,4 @@
-"""The one medium of all pictures: what the slab solver takes, and what Cycles' random walk takes for the same."""
+"""The medium of all pictures, in the parameters of the slab solver and of Cycles' random walk."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 import skinglow as sg
 
 STREAMS = 32
-# Cycles' random walk has no inner reflections: light meets no surface between flesh and air.
+# Cycles' random walk has no internal reflection: there is no interface between medium and air.
 INDEX = 1.0
 
 
@@ -27,11 +27,11 @@ class Medium:
 
     @property
     def single_scattering_albedo(self) -> np.ndarray:
-        """(3,), what of the extinction is scattering."""
+        """(3,), scattering over extinction."""
         return np.array(self.reduced_scattering) * self.mean_free_path_mm
 
     def transmittance(self, thickness_mm: np.ndarray, incidence: str | float = "diffuse") -> np.ndarray:
-        """What a plane slab lets through, per channel, (n, 3); a number for `incidence` is the cosine to the normal."""
+        """Transmittance of a plane slab per channel, (n, 3); a number for `incidence` is the cosine to the normal."""
         curves = [
             sg.ThicknessCurve([sg.Layer(INDEX, absorption, scattering, 0.0)], 0, incidence, streams=STREAMS)
             for absorption, scattering in zip(self.absorption, self.reduced_scattering, strict=True)
@@ -39,7 +39,7 @@ class Medium:
         return np.stack([curve.transmittance(thickness_mm) for curve in curves], axis=1)
 
     def base_lut(self, size: int, max_thickness_mm: float) -> sg.BaseLut:
-        """M(d): diagonal, for each channel is a medium of its own."""
+        """M(d): diagonal, since each channel is an independent medium."""
         thickness = np.linspace(0.0, max_thickness_mm, size)
         return sg.BaseLut(self.transmittance(thickness)[:, :, None] * np.eye(3), max_thickness_mm)
 
@@ -51,7 +51,7 @@ class Medium:
 
 
 def cycles_single_scattering_albedo(color: np.ndarray) -> np.ndarray:
-    """What Cycles 4.5 takes for the scattering of flesh of that color, without anisotropy (g = 0).
+    """The single scattering albedo that Cycles 4.5 uses for that color, without anisotropy (g = 0).
 
     A blend of two curves, by the fourth root of the color; from
     intern/cycles/kernel/integrator/subsurface_random_walk.h, its coefficients at g = 0.
@@ -63,5 +63,5 @@ def cycles_single_scattering_albedo(color: np.ndarray) -> np.ndarray:
 
 
 # H. W. Jensen, S. Marschner, M. Levoy, P. Hanrahan, "A practical model for subsurface light transport", SIGGRAPH 2001,
-# figure 5, `skin1`; its index of 1.3 left out (INDEX).
+# figure 5, `skin1`; its index of 1.3 is ignored (INDEX).
 SKIN1 = Medium("skin1 of Jensen et al. 2001", (0.74, 0.88, 1.01), (0.032, 0.17, 0.48))

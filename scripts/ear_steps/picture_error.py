@@ -1,4 +1,4 @@
-"""How far a picture is from a random walk that is itself noisy: the noise of the walk is taken out by its two seeds."""
+"""Error of a picture relative to a noisy random walk, whose noise is eliminated by means of two seeds."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 @dataclass
 class Error:
-    """RMS over the ear's pixels and channels, over the mean of the reference."""
+    """RMS over the ear's pixels and channels, relative to the mean of the reference."""
 
     rms: float
     standard_error: float
@@ -17,7 +17,7 @@ class Error:
 
 @dataclass
 class Reference:
-    """Two pictures of one thing with independent noise, each (n, 3): the ear's pixels."""
+    """Two renders of the same scene with independent noise, each (n, 3): the ear's pixels."""
 
     first: np.ndarray
     second: np.ndarray
@@ -39,30 +39,30 @@ class Reference:
         return Error(rms, spread / (2.0 * rms) if rms > 0.0 else float("inf"))
 
     def error_at_best(self, picture: np.ndarray) -> Error:
-        """Of a picture at the strength with which it comes nearest."""
+        """Error of a picture at the best strength."""
         return self.error(self.best_factor(picture) * picture)
 
     def only(self, some: np.ndarray) -> Reference:
-        """Of some of the pixels, (n,) bool."""
+        """Restricted to a mask of the pixels, (n,) bool."""
         return Reference(self.first[some], self.second[some])
 
     @property
     def noise(self) -> float:
-        """What is left in the mean of the two seeds, as an error of the same kind."""
+        """Residual noise of the mean of both seeds, in the same unit."""
         return float(0.5 * np.sqrt(((self.first - self.second) ** 2).mean()) / self.mean.mean())
 
     def best_factor(self, picture: np.ndarray) -> float:
-        """The one strength with which the picture comes nearest."""
+        """The strength that minimizes the error."""
         return float((picture * self.mean).sum() / (picture * picture).sum())
 
 
 @dataclass
 class WalkCost:
-    """CPU seconds of a random walk: something once, then the same for each sample; its error falls as their root."""
+    """CPU seconds of a random walk: linear in the samples; its error falls with their square root."""
 
     fixed: float
     each: float
-    error_of_one: float  # the error with one sample a pixel
+    error_of_one: float  # the error with one sample per pixel
 
     def seconds_to(self, error: float) -> float:
         return self.fixed + self.each * self.samples_to(error)
@@ -72,13 +72,13 @@ class WalkCost:
 
 
 def walk_cost(samples: np.ndarray, seconds: np.ndarray, errors: np.ndarray) -> WalkCost:
-    """From renders at several numbers of samples. The one with the most samples knows best how noisy they are."""
+    """Fitted to renders with several sample counts; the error is taken from the largest."""
     each, fixed = np.polyfit(samples, seconds, 1, w=1.0 / seconds)
     return WalkCost(max(0.0, float(fixed)), float(each), float(errors[-1] * np.sqrt(samples[-1])))
 
 
 def fitted_by_thickness(thickness_mm: np.ndarray, reference: Reference, step_mm: float = 0.25) -> np.ndarray:
-    """The best that any table over thickness can show, (n, 3): at each thickness the mean of the reference itself."""
+    """The best possible result of a table over thickness, (n, 3): the mean of the reference at each thickness."""
     bins = (thickness_mm / step_mm).astype(np.int64)
     _, index, count = np.unique(bins, return_inverse=True, return_counts=True)
     fitted = np.empty_like(reference.mean)

@@ -1,4 +1,4 @@
-"""Runs inside Blender: the materials that are compared, and rendering one of them to numbers."""
+"""Runs inside Blender: the materials to compare, and rendering to arrays."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ THICKNESS = "skinglow_thickness"
 
 @dataclass
 class Picture:
-    """Linear light, (height, width, 4), first row at the top; alpha says how much of a pixel the head fills."""
+    """Linear radiance, (height, width, 4), top row first; alpha is the coverage by the head."""
 
     pixels: np.ndarray
     cpu_seconds: float  # of the render call
 
 
 def timed(function: Callable[[], Result]) -> tuple[Result, float]:
-    """What a function returns, and its CPU seconds: user and system, all threads, so that other work counts less."""
+    """The result of a function and its CPU seconds: user and system, all threads, less affected by other work."""
     before = resource.getrusage(resource.RUSAGE_SELF)
     result = function()
     after = resource.getrusage(resource.RUSAGE_SELF)
@@ -35,7 +35,7 @@ def timed(function: Callable[[], Result]) -> tuple[Result, float]:
 
 
 def linear_render(scene: bpy.types.Scene, size: int) -> None:
-    """Every estimate as it is: one box per pixel, nothing clamped, no pixel given up early."""
+    """Unbiased rendering: box filter, no clamping, no adaptive sampling."""
     scene.render.resolution_x = scene.render.resolution_y = size
     scene.render.film_transparent = True
     settings = scene.render.image_settings
@@ -47,7 +47,7 @@ def linear_render(scene: bpy.types.Scene, size: int) -> None:
 
 
 def bounce(scene: bpy.types.Scene, times: int) -> None:
-    """How often light goes on from surface to surface after it came through."""
+    """Sets the number of bounces between surfaces after transmission."""
     scene.cycles.max_bounces = scene.cycles.diffuse_bounces = times
 
 
@@ -64,7 +64,7 @@ def render(scene: bpy.types.Scene, samples: int, seed: int, folder: Path) -> Pic
     return Picture(pixels.reshape(height, width, 4)[::-1].astype(np.float64), cpu)
 
 
-def wear(thing: bpy.types.Object, material: bpy.types.Material) -> None:
+def assign_material(thing: bpy.types.Object, material: bpy.types.Material) -> None:
     thing.data.materials.clear()
     thing.data.materials.append(material)
 
@@ -79,11 +79,11 @@ def _empty(name: str) -> tuple[bpy.types.Material, bpy.types.NodeTree, bpy.types
 
 
 def random_walk(medium: Medium) -> bpy.types.Material:
-    """Flesh of that medium and nothing else: no gloss, no refraction to speak of (the least index Cycles takes)."""
+    """Only that medium: no specular reflection, and minimal refraction (the min index of Cycles)."""
     material, tree, surface = _empty("random walk")
     node = tree.nodes.new("ShaderNodeSubsurfaceScattering")
     node.falloff = "RANDOM_WALK"
-    # Until 5.1 Cycles divides the radius by 4 pi; 5.2 takes it as the mean free path and keeps the old way by a name.
+    # Up to 5.1 Cycles divides the radius by 4 pi; 5.2 uses it as the mean free path and has a legacy mode.
     legacy = "RANDOM_WALK_LEGACY" not in node.bl_rna.properties["falloff"].enum_items
     radius_m = medium.mean_free_path_mm / MM_PER_METER * (4.0 * np.pi if legacy else 1.0)
     node.inputs["Color"].default_value = (*medium.walk_color, 1.0)
@@ -103,7 +103,7 @@ def _attribute(tree: bpy.types.NodeTree, name: str) -> bpy.types.Node:
 
 
 def shown_attribute(name: str) -> bpy.types.Material:
-    """A color attribute as it is."""
+    """Shows a color attribute."""
     material, tree, surface = _empty(name)
     emission = tree.nodes.new("ShaderNodeEmission")
     tree.links.new(_attribute(tree, name).outputs["Color"], emission.inputs["Color"])
@@ -111,13 +111,13 @@ def shown_attribute(name: str) -> bpy.types.Material:
     return material
 
 
-def _lookup(tree: bpy.types.NodeTree, table: np.ndarray, place: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+def _lookup(tree: bpy.types.NodeTree, table: np.ndarray, coordinate: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
     image = bpy.data.images.new("lookup", len(table), 1, float_buffer=True)
     image.colorspace_settings.is_data = True  # before writing: setting it clears the pixels
     image.pixels.foreach_set(np.column_stack([table, np.ones(len(table))]).astype(np.float32).ravel())
     node = tree.nodes.new("ShaderNodeTexImage")
     node.image, node.extension, node.interpolation = image, "EXTEND", "Linear"
-    tree.links.new(place, node.inputs["Vector"])
+    tree.links.new(coordinate, node.inputs["Vector"])
     return node.outputs["Color"]
 
 
@@ -129,31 +129,31 @@ def lookup_skin(
     strength: float,
     thickness: str = THICKNESS,
 ) -> bpy.types.Material:
-    """A black surface that gives the light coming through.
+    """A black surface that emits the transmitted light.
 
     tables  one (n, 3) lookup over thickness; or three, the columns of M(d), for the channels of the attribute `weight`
     """
     material, tree, surface = _empty(name)
-    # Else Cycles may take every triangle for a lamp, which costs more than the picture; here it lights nothing else.
+    # Otherwise Cycles may sample every triangle as a light, which costs more than the picture itself.
     material.cycles.emission_sampling = "NONE"
     scale, offset = sg.BaseLut(tables[0][:, 0], max_thickness_mm).texel_mapping
-    along = tree.nodes.new("ShaderNodeMath")
-    along.operation = "MULTIPLY_ADD"
-    along.inputs[1].default_value, along.inputs[2].default_value = scale, offset
-    tree.links.new(_attribute(tree, thickness).outputs["Fac"], along.inputs[0])
-    place = tree.nodes.new("ShaderNodeCombineXYZ")
-    place.inputs["Y"].default_value = 0.5
-    tree.links.new(along.outputs[0], place.inputs["X"])
-    light = _lookup(tree, tables[0], place.outputs[0])
+    u = tree.nodes.new("ShaderNodeMath")
+    u.operation = "MULTIPLY_ADD"
+    u.inputs[1].default_value, u.inputs[2].default_value = scale, offset
+    tree.links.new(_attribute(tree, thickness).outputs["Fac"], u.inputs[0])
+    coordinate = tree.nodes.new("ShaderNodeCombineXYZ")
+    coordinate.inputs["Y"].default_value = 0.5
+    tree.links.new(u.outputs[0], coordinate.inputs["X"])
+    light = _lookup(tree, tables[0], coordinate.outputs[0])
     if weight is not None:
         split = tree.nodes.new("ShaderNodeSeparateXYZ")
         tree.links.new(_attribute(tree, weight).outputs["Vector"], split.inputs[0])
         light = None
-        for table, share in zip(tables, split.outputs, strict=True):
+        for table, channel in zip(tables, split.outputs, strict=True):
             add = tree.nodes.new("ShaderNodeVectorMath")
             add.operation = "MULTIPLY_ADD"
-            tree.links.new(_lookup(tree, table, place.outputs[0]), add.inputs[0])
-            tree.links.new(share, add.inputs[1])
+            tree.links.new(_lookup(tree, table, coordinate.outputs[0]), add.inputs[0])
+            tree.links.new(channel, add.inputs[1])
             if light is None:
                 add.inputs[2].default_value = (0.0, 0.0, 0.0)
             else:

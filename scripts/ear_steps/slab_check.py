@@ -1,4 +1,4 @@
-"""Runs inside Blender: a plane slab of the medium, for which the solver knows the answer. Is it the same medium?"""
+"""Runs inside Blender: a plane slab, to verify that solver and random walk use the same medium."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from medium import Medium
 
 THICKNESS_MM = 4.0
 ANGLES_DEGREES = (0.0, 60.0)
-LEAST_INDEX = 1.01
-WIDE_M = 1.0  # so wide that no light finds its way around
+MIN_INDEX = 1.01
+WIDE_M = 1.0  # so wide that no light passes around it
 
 
 def compare(medium: Medium, size: int, samples: int, folder: Path) -> list[dict[str, Any]]:
-    """What Cycles lets through over what the solver does, for white light of 1 W/m^2 from straight behind.
+    """Transmittance by Cycles over that by the solver, for white light of 1 W/m^2 from directly behind.
 
-    Cycles walks from the eye: in along the view ray, out as if the far side were matt. By reciprocity that is the
-    solver's transmittance for light that comes along the view ray, bent by the least index that Cycles takes.
+    Cycles traces from the eye: it enters along the view ray and leaves diffusely at the far side. By reciprocity that
+    is the solver's transmittance for light along the view ray, refracted by the min index of Cycles.
     """
     scene = stage.empty_scene()
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
@@ -30,7 +30,7 @@ def compare(medium: Medium, size: int, samples: int, folder: Path) -> list[dict[
     bpy.ops.mesh.primitive_cube_add(size=1.0)
     slab = bpy.context.object
     slab.scale = (WIDE_M, THICKNESS_MM / shading.MM_PER_METER, WIDE_M)
-    shading.wear(slab, shading.random_walk(medium))
+    shading.assign_material(slab, shading.random_walk(medium))
     sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
     sun.data.angle, sun.data.energy = 0.0, 1.0
     sun.rotation_euler = (-math.pi / 2.0, 0.0, 0.0)  # shines towards -Y
@@ -46,7 +46,7 @@ def compare(medium: Medium, size: int, samples: int, folder: Path) -> list[dict[
         camera.location = (0.2 * math.sin(angle), -0.2 * math.cos(angle), 0.0)
         camera.rotation_euler = (math.pi / 2.0, 0.0, angle)
         seen = shading.render(scene, samples, 1, folder).pixels[:, :, :3].reshape(-1, 3) * math.pi
-        inside = math.sqrt(1.0 - (math.sin(angle) / LEAST_INDEX) ** 2)
+        inside = math.sqrt(1.0 - (math.sin(angle) / MIN_INDEX) ** 2)
         by_angle = medium.transmittance(np.array([THICKNESS_MM]), inside)[0]
         diffuse = medium.transmittance(np.array([THICKNESS_MM]))[0]
         rows.append(

@@ -1,4 +1,4 @@
-"""From the pictures to what is reported: errors, times, ratios by thickness."""
+"""Evaluates the pictures: errors, times, ratios by thickness."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from picture_error import Error, Reference, WalkCost, fitted_by_thickness, walk_
 METHODS = {
     "existing": "existing (fixed lookup)",
     "paper": "paper (Eq. 1-3)",
-    "object": "physical, object weight",
-    "surface": "physical, surface weights",
+    "object": "physical, per object",
+    "surface": "physical, per pixel",
 }
 BIN_EDGES_MM = (0.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 12.0, np.inf)
-LEAST_PIXELS = 20
+MIN_PIXELS = 20
 THIN_MM = 8.0
 
 
@@ -26,20 +26,20 @@ class MethodResult:
     name: str
     seconds: float
     as_it_is: Error
-    factor: float  # the one strength that brings it nearest
+    factor: float  # strength that minimizes the error
     at_best: Error
-    brightness: float  # its mean over the walk's
-    thin: Error  # of skin up to THIN_MM alone, at the strength that is best for it
-    bounced: Error  # at its best strength, against walks with light from skin to skin
+    brightness: float  # its mean over that of the walk
+    thin: Error  # of skin up to THIN_MM only, at the best strength for it
+    bounced: Error  # at its best strength, compared with walks with interreflection
 
 
 @dataclass
 class Limit:
-    """What a picture could reach that none of the modes shows."""
+    """The error of a hypothetical method that no mode implements."""
 
     name: str
     error: Error
-    thin: Error  # of skin up to THIN_MM alone
+    thin: Error  # of skin up to THIN_MM only
 
 
 @dataclass
@@ -47,8 +47,8 @@ class Bin:
     low: float
     high: float
     pixels: int
-    share_of_light: float  # of the walk's
-    share_of_error: float  # of the squared error of surface weights at their best strength
+    fraction_of_light: float  # of the walk
+    fraction_of_error: float  # of the squared error per pixel at the best strength
     walk_over: dict[str, float]  # red of the walk over red of each method
     standard_error: float  # of the first
 
@@ -60,7 +60,7 @@ class Study:
         self.numbers = numbers
         facts = self.pictures["ear_facts"]
         self.ear = (facts[:, :, 3] > 0.999) & (facts[:, :, 2] > 0.999)
-        if self.ear.sum() < LEAST_PIXELS:
+        if self.ear.sum() < MIN_PIXELS:
             raise SystemExit(f"only {self.ear.sum()} pixels of the ear are back-lit; render a larger --size")
         self.thickness, self.view_cosine = facts[self.ear][:, 0], facts[self.ear][:, 1]
         self.reference = Reference(self.of("reference_1"), self.of("reference_2"))
@@ -94,7 +94,7 @@ class Study:
         )
 
     def by_view(self) -> np.ndarray:
-        """Surface weights, but the slab seen at each pixel's own angle: what Cycles' walk does on a plane slab."""
+        """Per pixel, with the slab viewed at each pixel's angle, as Cycles' walk does on a plane slab."""
         order = np.linspace(0.05, 1.0, 20)
         depth = np.linspace(0.0, 12.0, 121)
         table = np.stack([SKIN1.transmittance(depth, float(mu)) for mu in order])  # (cosine, thickness, channel)
@@ -107,11 +107,11 @@ class Study:
         return ((1 - s) * low + s * high) * self.of("ear_far_side") / np.pi
 
     def limits(self) -> list[Limit]:
-        """Each at its best strength, as the modes are."""
+        """Hypothetical methods, each at its best strength like the modes."""
         pictures = {
-            "surface weights, thickness to any far side, however dark": self.of("surface_open"),
-            "surface weights, slab seen at each pixel's angle": self.by_view(),
-            "the best table over thickness there is: fitted to the walk": fitted_by_thickness(
+            "per pixel, thickness to any far side, however dark": self.of("surface_open"),
+            "per pixel, slab viewed at each pixel's angle": self.by_view(),
+            "the best possible table over thickness, fitted to the walk": fitted_by_thickness(
                 self.thickness, self.reference
             ),
         }
@@ -134,7 +134,7 @@ class Study:
         rows = []
         for low, high in zip(BIN_EDGES_MM[:-1], BIN_EDGES_MM[1:], strict=True):
             here = (self.thickness >= low) & (self.thickness < high)
-            if here.sum() < LEAST_PIXELS:
+            if here.sum() < MIN_PIXELS:
                 continue
             noise = 0.5 * float(np.sqrt((difference[here] ** 2).sum())) / float(red[here].sum())
             over = {name: float(red[here].sum() / values[here].sum()) for name, values in others.items()}

@@ -1,4 +1,4 @@
-"""The batch command for a Python that has bpy, in place of a Blender program.
+"""The batch command for a Python with bpy, instead of a Blender program.
 
 Usage: python batch_in_wheel.py OPTIONS, as after `--` of blender -b ... (docs/batch.md)
 """
@@ -9,7 +9,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "blender_addon"))
 
-import bpy  # noqa: F401, E402  first: it is what makes mathutils importable
+import bpy  # noqa: F401, E402  first: it makes mathutils importable
 import skinglow_blender as sb  # noqa: E402
 
 code = 1
@@ -19,5 +19,5 @@ except SystemExit as end:
     code = end.code if isinstance(end.code, int) else 1
 sys.stdout.flush()
 sys.stderr.flush()
-# The 4.5 wheel never comes back from an ordinary exit.
+# The 4.5 wheel hangs on a normal exit.
 os._exit(code)

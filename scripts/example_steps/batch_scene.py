@@ -1,4 +1,4 @@
-"""Runs inside Blender: saves a scene for the batch example, a head that turns before two rigs of lamps.
+"""Runs inside Blender: saves a scene for the batch example, a turning head and two light rigs.
 
 Usage: python batch_scene.py SCENE.blend, with a Python that has bpy, or blender -b -P batch_scene.py -- SCENE.blend
 """
@@ -21,10 +21,10 @@ import skinglow_blender as sb  # noqa: E402
 
 FRAMES = 3
 TURN_DEGREES = 30.0  # to each side
-#: Tables are dark at the thickness of these ears, and shaders that use them scale them up by hand.
+#: Tables are dark at the thickness of these ears; shaders that use them scale them up by hand.
 STRENGTH = 60.0
-#: Collection, lamp, linear color, W, and place in meters about the middle of a head that faces -Y.
-LAMPS = (
+#: Collection, light, linear color, power in W, and position in meters relative to the center of a head facing -Y.
+LIGHTS = (
     ("sunset", "low sun", (1.0, 0.60, 0.25), 12.0, (0.30, 0.35, 0.05)),
     ("sunset", "sky", (0.25, 0.40, 1.0), 8.0, (-0.50, -0.60, 0.50)),
 )
@@ -38,10 +38,10 @@ def main(blend: Path) -> None:
     scene.frame_start, scene.frame_end = 1, FRAMES
     head = stage.load_head({"mesh": "suzanne", "unit_mm": 100.0, "group": None, "eyes": (), "cut_below_m": None})
     stage.skin_surface(head, None, None)
-    middle = stage.center_of(head)
-    stage.aim_camera(scene, middle, 0.29, 0.0)
-    for collection, name, color, power, place in LAMPS:
-        lamp(scene, collection, name, color, power, [a + b for a, b in zip(middle, place, strict=True)])
+    center = stage.center_of(head)
+    stage.aim_camera(scene, center, 0.29, 0.0)
+    for collection, name, color, power, position in LIGHTS:
+        add_light(scene, collection, name, color, power, [a + b for a, b in zip(center, position, strict=True)])
     for frame in range(1, FRAMES + 1):
         head.rotation_euler.z = math.radians(TURN_DEGREES * (2 * (frame - 1) / (FRAMES - 1) - 1))
         head.keyframe_insert("rotation_euler", frame=frame)
@@ -54,10 +54,10 @@ def main(blend: Path) -> None:
     bpy.ops.wm.save_as_mainfile(filepath=str(blend.resolve()))
 
 
-def lamp(
-    scene: bpy.types.Scene, collection: str, name: str, color: tuple[float, ...], power: float, place: list[float]
+def add_light(
+    scene: bpy.types.Scene, collection: str, name: str, color: tuple[float, ...], power: float, position: list[float]
 ) -> None:
-    """A point lamp, in the collection that makes it part of a rig."""
+    """Adds a point light to the collection of its rig."""
     rig = bpy.data.collections.get(collection)
     if rig is None:
         rig = bpy.data.collections.new(collection)
@@ -65,14 +65,14 @@ def lamp(
     data = bpy.data.lights.new(name, "POINT")
     data.color, data.energy, data.shadow_soft_size = color, power, 0.03
     obj = bpy.data.objects.new(name, data)
-    obj.location = place
+    obj.location = position
     rig.objects.link(obj)
 
 
 code = 0
 try:
     main(Path(sys.argv[-1]))
-except BaseException:  # whatever it was: left to itself, the 4.5 wheel would not end
+except BaseException:  # any error: on a normal exit the 4.5 wheel would hang
     traceback.print_exc()
     code = 1
 sys.stdout.flush()

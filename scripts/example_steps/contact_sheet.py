@@ -1,4 +1,4 @@
-"""A sheet of a batch's pictures: a row for each rig, a column for each frame, and what lit them, by the manifest.
+"""A contact sheet of a batch: one row per rig, one column per frame, with the lights from the manifest.
 
 Usage: contact_sheet.py FOLDER SHEET.png
 """
@@ -22,7 +22,7 @@ def main(folder: Path, sheet: Path) -> None:
     for path in sorted(folder.glob("manifest*.jsonl")):
         for line in path.read_text().splitlines():
             entry = json.loads(line)
-            entries[entry["rig"], entry["frame"]] = entry  # the last line of a picture counts
+            entries[entry["rig"], entry["frame"]] = entry  # the last entry of a picture counts
     rigs = list(dict.fromkeys(rig for rig, _frame in entries))
     frames = sorted({frame for _rig, frame in entries})
     figure, axes = plt.subplots(len(rigs), len(frames), figsize=(2.6 * len(frames), 2.9 * len(rigs)), squeeze=False)
@@ -40,9 +40,9 @@ def main(folder: Path, sheet: Path) -> None:
 
 
 def lit_by(entry: dict) -> str:
-    """The lamps that count for the skin, and their shares."""
-    lamps = [lamp for lamp in entry["skins"][0]["lamps"] if lamp["share"] > 0.0]
-    return ", ".join(f"{lamp['name']} {lamp['share']:.0%}" for lamp in lamps)
+    """The lights that contribute to the skin, and their fractions."""
+    lights = [light for light in entry["skins"][0]["lamps"] if light["share"] > 0.0]
+    return ", ".join(f"{light['name']} {light['share']:.0%}" for light in lights)
 
 
 main(Path(sys.argv[1]), Path(sys.argv[2]))

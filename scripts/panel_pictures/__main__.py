@@ -1,8 +1,8 @@
-"""Takes docs/images/panel.png: a full Blender in a window that nobody sees, and a click on the panel's button.
+"""Takes docs/images/panel.png: a full Blender in a virtual display, and a click on the panel's button.
 
 Usage: python scripts/panel_pictures [BLENDER [PICTURE]]
-Needs Xvfb, and the core as a folder, which scripts/build makes. For Blender before 4.2: the screenshots that later ones
-take of themselves are black there.
+Needs Xvfb and the core as a folder, made by scripts/build. Only for Blender before 4.2: later versions take black
+screenshots in Xvfb.
 """
 
 import os
@@ -27,7 +27,7 @@ def main(blender: str = "blender", picture: str = str(PROJECT / "docs" / "images
             command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, check=False
         )
     if "STEPS DONE" not in done.stdout or "Traceback" in done.stdout:
-        sys.exit(f"no picture was taken:\n{done.stdout}")
+        sys.exit(f"the picture was not taken:\n{done.stdout}")
     print(picture)
 
 

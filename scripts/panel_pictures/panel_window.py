@@ -1,4 +1,4 @@
-"""Runs in a Blender with a window: makes a skin by a click on the panel's button, and takes the panel's picture.
+"""Runs in a Blender with a window: makes a skin by clicking the panel's button, and takes a picture of the panel.
 
 Arguments after "--": the picture's file, the add-on's folder, the core's folder.
 """

@@ -1,4 +1,4 @@
-"""Runs in a Blender that has a window: what a person does, step by step, between which Blender draws."""
+"""Runs in a Blender with a window: user actions as steps, between which Blender draws."""
 
 import sys
 import time
@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterator
 
 import bpy
 
-#: Seconds between two steps where a step does not ask for more.
+#: Default pause between two steps, seconds.
 PAUSE = 0.3
 
 
 def run_steps(steps: Callable[[], Iterator[float | None]]) -> None:
-    """Runs a generator from Blender's timer; what it yields is the pause in seconds. Then Blender ends."""
+    """Runs a generator from a Blender timer; it yields pauses in seconds. Quits Blender at the end."""
     bpy.context.preferences.view.show_splash = False
     running = steps()
 
@@ -21,7 +21,7 @@ def run_steps(steps: Callable[[], Iterator[float | None]]) -> None:
             return next(running) or PAUSE
         except StopIteration:
             print("STEPS DONE", flush=True)
-        except Exception:  # noqa: BLE001  the one who runs this looks for it in the output
+        except Exception:  # noqa: BLE001  the caller checks the output
             traceback.print_exc()
         sys.stdout.flush()
         bpy.ops.wm.quit_blender()
@@ -31,7 +31,7 @@ def run_steps(steps: Callable[[], Iterator[float | None]]) -> None:
 
 
 def window() -> bpy.types.Window:
-    """The first window; references to it do not outlive a file's loading."""
+    """The first window; references to it become invalid when a file is loaded."""
     return bpy.context.window_manager.windows[0]
 
 
@@ -46,13 +46,13 @@ def region_of(area: bpy.types.Area, kind: str) -> bpy.types.Region:
 
 
 def in_view(**more: object) -> object:
-    """The context of a pointer over the 3D view."""
+    """The context of a pointer over the 3D Viewport."""
     area = area_of("VIEW_3D")
     return bpy.context.temp_override(window=window(), area=area, region=region_of(area, "WINDOW"), **more)
 
 
 def open_sidebar(tab: str, class_of_tab: type) -> Iterator[float]:
-    """Opens the 3D view's sidebar at a tab; before 4.2 by a click, for which Blender wants --enable-event-simulate."""
+    """Opens the sidebar at a tab; before 4.2 by a click, which requires --enable-event-simulate."""
     area = area_of("VIEW_3D")
     area.spaces.active.show_region_ui = True
     yield 0.5
@@ -63,14 +63,14 @@ def open_sidebar(tab: str, class_of_tab: type) -> Iterator[float]:
         hide_other_tabs(class_of_tab)
         area.tag_redraw()
         yield 0.5
-        # Below the one tab that is left, Item's.
+        # Below the only other tab, Item.
         yield from click(sidebar.x + sidebar.width - 10, sidebar.y + sidebar.height - 80)
     area.tag_redraw()
     yield 0.5
 
 
 def hide_other_tabs(class_of_tab: type) -> None:
-    """Takes the tabs of the sidebar that are Blender's own away, for this run of Blender."""
+    """Hides Blender's own sidebar tabs for this run."""
     for panel in bpy.types.Panel.__subclasses__():
         where = (getattr(panel, "bl_space_type", ""), getattr(panel, "bl_region_type", ""))
         if where == ("VIEW_3D", "UI") and panel.__module__.startswith("bl_ui") and panel is not class_of_tab:
@@ -89,7 +89,7 @@ def click(x: int, y: int, seconds: float = 0.2) -> Iterator[float]:
 
 
 def press(key: str, x: int, y: int, **with_keys: bool) -> Iterator[float]:
-    """A key pressed with the pointer at a place; with_keys: ctrl, shift, alt."""
+    """A key press with the pointer at x, y; with_keys: ctrl, shift, alt."""
     window().event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
     yield 0.2
     for value in ("PRESS", "RELEASE"):
@@ -98,14 +98,14 @@ def press(key: str, x: int, y: int, **with_keys: bool) -> Iterator[float]:
 
 
 def wait_for(true: Callable[[], bool], seconds: float, what: str) -> Iterator[float]:
-    """Lets Blender go on until something is true; raises TimeoutError naming it if it never is."""
+    """Waits until a condition is true; raises TimeoutError naming it otherwise."""
     end = time.monotonic() + seconds
     while not true():
         if time.monotonic() > end:
-            raise TimeoutError(f"waited {seconds:g} s in vain for {what}")
+            raise TimeoutError(f"timed out after {seconds:g} s waiting for {what}")
         yield 0.1
 
 
 def save_picture(path: str) -> None:
-    """The window as a PNG, read from the screen where Blender's own screenshots are black."""
+    """Saves a screenshot of the window as PNG."""
     bpy.ops.screen.screenshot(filepath=path)

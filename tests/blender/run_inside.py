@@ -46,7 +46,7 @@ def require_current_names(caught: list[warnings.WarningMessage]) -> None:
 
     Recorded rather than raised where it happens: handlers keep exceptions.
     """
-    ours = {f"{w.filename}:{w.lineno}: {w.message}" for w in caught if "skinglow" in str(w.message)}
+    ours = {f"{w.filename}:{w.lineno}: {w.message}" for w in caught if " is now " in str(w.message)}
     assert not ours, "deprecated names:\n" + "\n".join(sorted(ours))
 
 

@@ -10,14 +10,14 @@ import pytest
 from hosts import ADDON_FOLDER, HERE, HOSTS, host_named
 
 SECONDS = 120
-#: Makes and saves a scene: two lamps, a skin, a camera.
+#: Makes and saves a scene: two lights, a skin, a camera.
 SCENE = """
 import bpy
-from inside.scenes import black_material, camera_above, lamp, patch, render_settings
+from inside.scenes import black_material, camera_above, add_light, patch, render_settings
 import skinglow_blender as sb
 bpy.ops.wm.read_factory_settings(use_empty=True)
-lamp("Key", color=(1.0, 0.0, 0.0))
-lamp("Fill", color=(0.0, 0.0, 1.0))
+add_light("Key", color=(1.0, 0.0, 0.0))
+add_light("Fill", color=(0.0, 0.0, 1.0))
 sb.make_skin(patch(material=black_material()), thickness=[0.0] * 4)
 camera_above()
 scene = render_settings(4, 4)

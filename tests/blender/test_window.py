@@ -71,7 +71,7 @@ def test_the_list_is_sorted_and_says_why(window: Window) -> None:
     shares = [share for _name, share, _reason in rows]
     assert len(rows) == 7 and shares == sorted(shares, reverse=True) and abs(sum(shares) - 1.0) < 0.01
     reasons = {name: reason for name, _share, reason in rows if reason}
-    assert reasons["Put away"] == "disabled in viewports" and "zero power" in reasons["Switched off"]
+    assert reasons["Hidden"] == "disabled in viewports" and "zero power" in reasons["Switched off"]
 
 
 def test_redraws_compute_nothing(window: Window) -> None:
@@ -92,7 +92,7 @@ def test_measuring_in_the_window_can_be_undone(window: Window) -> None:
     assert window["measuring undone and redone"] is True
 
 
-def test_the_lookup_follows_a_moved_lamp(window: Window) -> None:
+def test_the_lookup_follows_a_moved_light(window: Window) -> None:
     assert window["the lookup followed a moved lamp"] is True
 
 

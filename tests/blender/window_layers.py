@@ -17,7 +17,7 @@ sys.path.append(os.environ["SKINGLOW_SITE"])
 import bpy  # noqa: E402
 import numpy as np  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
-from inside.scenes import lamp, paper_table, patch  # noqa: E402
+from inside.scenes import add_light, paper_table, patch  # noqa: E402
 
 SECONDS = 60
 
@@ -33,7 +33,7 @@ def steps():
     scene = bpy.context.scene
     extra = bpy.data.collections.new("Extra")
     scene.collection.children.link(extra)
-    lamps = [lamp("Key", color=(1.0, 0.0, 0.0)), lamp("Fill", color=(0.0, 0.0, 1.0), collection=extra)]
+    lights = [add_light("Key", color=(1.0, 0.0, 0.0)), add_light("Fill", color=(0.0, 0.0, 1.0), collection=extra)]
     obj = patch()
     sb.make_skin(obj, thickness=[0.0, 1.0, 2.0, 3.0])
     layers = [scene.view_layers[0], scene.view_layers.new("Second")]
@@ -41,7 +41,7 @@ def steps():
     # Back and forth again: by then both have been evaluated.
     for which in (1, 0, 1, 0):
         window().view_layer = layers[which]
-        expected = paper_table(lamps[: 2 - which])
+        expected = paper_table(lights[: 2 - which])
         until = time.monotonic() + SECONDS
         while not np.allclose(sb.lut(obj, layers[which].depsgraph or layers[0].depsgraph), expected, rtol=1e-6):
             assert time.monotonic() < until, f"{layers[which].name} shows another layer's lookup"

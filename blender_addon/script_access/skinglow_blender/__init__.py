@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`import skinglow_blender` for scripts where the add-on is an extension.
 
-An extension's own name depends on its repository, and Blender asks it to bring no top-level modules; but it
-welcomes them in wheels, and this is one. All names are the extension's, which has to be enabled in
-the preferences, under add-ons.
+The full name of an extension depends on its repository, and extensions must not contain top-level modules; wheels may,
+and this is one. It forwards all names to the extension, which has to be enabled in the preferences, under Add-ons.
 """
 
 import importlib
@@ -25,5 +24,5 @@ __doc__ = _extension.__doc__
 __all__ = getattr(_extension, "__all__", ())
 
 
-def __getattr__(name: str) -> Any:  # noqa: ANN401  whatever the extension has by that name
+def __getattr__(name: str) -> Any:  # noqa: ANN401  any attribute of the extension
     return getattr(_extension, name)

@@ -1,9 +1,9 @@
+#include <skinglow/angular_weight.h>
 #include <skinglow/tissue.h>
 
 #include <vector>
 
 #include "numerics/argument_check.h"
-#include "radiometry/angular_weight.h"
 
 namespace skinglow {
 

@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import skinglow_blender as sb
 
-from inside.scenes import assert_fresh, assert_shows, depsgraph, fresh_table, lamp, link, paper_table, patch
+from inside.scenes import add_light, assert_fresh, assert_shows, depsgraph, fresh_table, link, paper_table, patch
 
 THIN = [0.0, 1.0, 2.0, 3.0]
 
@@ -17,7 +17,7 @@ def skin(name="Patch", **settings):
 
 def check_add_duplicate_rename_delete(_work):
     obj = skin()
-    key = lamp("Key", color=(1.0, 0.3, 0.1))
+    key = add_light("Key", color=(1.0, 0.3, 0.1))
     assert_fresh(obj)
     copy = link(key.copy())
     copy.location.x = 2.0
@@ -37,7 +37,7 @@ def check_hide_and_exclude(_work):
     obj = skin()
     collection = bpy.data.collections.new("Rig")
     bpy.context.scene.collection.children.link(collection)
-    key, fill = lamp("Key"), lamp("Fill", color=(0.0, 0.5, 1.0), collection=collection)
+    key, fill = add_light("Key"), add_light("Fill", color=(0.0, 0.5, 1.0), collection=collection)
     assert_fresh(obj)
     both = sb.lut(obj, depsgraph())
     layer = bpy.context.view_layer.layer_collection.children["Rig"]
@@ -63,7 +63,7 @@ def check_hide_and_exclude(_work):
 def check_parent_constrain_drive(_work):
     obj = skin()
     holder = link(bpy.data.objects.new("Holder", None))
-    key = lamp("Key")
+    key = add_light("Key")
     key.parent = holder
     assert_fresh(obj)
     holder.location = (1.0, 2.0, 3.0)
@@ -93,7 +93,7 @@ def check_parent_constrain_drive(_work):
 def check_instanced_collections(_work):
     obj = skin()
     rig = bpy.data.collections.new("Rig")
-    lamp("Inside", color=(1.0, 0.2, 0.0), collection=rig)
+    add_light("Inside", color=(1.0, 0.2, 0.0), collection=rig)
     nest = bpy.data.collections.new("Nest")
     nested = bpy.data.objects.new("Nested", None)
     nested.instance_type, nested.instance_collection = "COLLECTION", rig
@@ -120,7 +120,7 @@ def check_instanced_collections(_work):
 
 def check_animation_and_frame_changes(_work):
     obj = skin()
-    key = lamp("Key")
+    key = add_light("Key")
     scene = bpy.context.scene
     for frame, z, energy in ((1, 1.0, 10.0), (10, 4.0, 20.0), (11, 4.0, 0.0)):
         key.location.z, key.data.energy = z, energy
@@ -136,7 +136,7 @@ def check_animation_and_frame_changes(_work):
 
 
 def check_move_and_scale_the_skin(_work):
-    lamp("Key", location=(0.5, 0.25, 1.0))
+    add_light("Key", location=(0.5, 0.25, 1.0))
     obj = skin()
     obj.location = (1.0, -0.5, 0.25)
     assert_fresh(obj)
@@ -152,7 +152,7 @@ def check_move_and_scale_the_skin(_work):
 
 
 def check_skins_on_shared_and_own_materials(_work):
-    lamp("Key", location=(0.0, 0.0, 1.0))
+    add_light("Key", location=(0.0, 0.0, 1.0))
     shared = bpy.data.materials.new("Shared")
     first = patch("First", material=shared)
     second = patch("Second", location=(2.0, 0.0, 0.0), material=shared)
@@ -178,7 +178,7 @@ def check_skins_on_shared_and_own_materials(_work):
 
 
 def check_more_skins_than_rows(_work):
-    lamp("Key", location=(0.0, 0.0, 1.0))
+    add_light("Key", location=(0.0, 0.0, 1.0))
     skins = [skin()]
     for i in range(40):
         copy = link(skins[0].copy())
@@ -192,7 +192,7 @@ def check_more_skins_than_rows(_work):
 def check_light_linking(_work):
     if bpy.app.version < (4, 0, 0):
         return
-    key, fill = lamp("Key"), lamp("Fill", color=(0.0, 0.5, 1.0))
+    key, fill = add_light("Key"), add_light("Fill", color=(0.0, 0.5, 1.0))
     one, two = skin("One"), skin("Two")
     receivers = bpy.data.collections.new("Receivers")
     receivers.objects.link(one)
@@ -209,7 +209,7 @@ def check_light_linking(_work):
 
 def check_driven_and_animated_settings(_work):
     """Keyed strength and blood weight follow the frame."""
-    key = lamp("Key")
+    key = add_light("Key")
     obj = skin()
     for frame, strength, red in ((1, 1.0, 1.8), (5, 3.0, 0.6)):
         obj.skinglow.strength = strength
@@ -226,7 +226,7 @@ def check_driven_and_animated_settings(_work):
 
 
 def check_live_off_waits_for_update(_work):
-    key = lamp("Key")
+    key = add_light("Key")
     obj = skin(live=False)
     before = sb.lut(obj, depsgraph())
     key.data.color = (0.0, 0.0, 1.0)
@@ -239,7 +239,7 @@ def check_live_off_waits_for_update(_work):
 
 
 def check_remove_without_trace(_work):
-    lamp("Key")
+    add_light("Key")
     material = bpy.data.materials.new("Skin")
     if bpy.app.version < (5, 0, 0):
         material.use_nodes = True

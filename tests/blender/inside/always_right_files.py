@@ -6,11 +6,11 @@ import skinglow_blender as sb
 from skinglow_blender import handlers
 
 from inside.always_right import THIN, skin
-from inside.scenes import assert_fresh, assert_shows, depsgraph, fresh_table, lamp, link, paper_table, patch
+from inside.scenes import add_light, assert_fresh, assert_shows, depsgraph, fresh_table, link, paper_table, patch
 
 
 def check_undo_and_redo(_work):
-    key = lamp("Key")
+    key = add_light("Key")
     skin()
     bpy.ops.ed.undo_push(message="start")
     key.data.color = (1.0, 0.0, 0.0)
@@ -34,7 +34,7 @@ def check_undo_and_redo(_work):
 
 
 def check_undo_of_making_a_skin(_work):
-    lamp("Key")
+    add_light("Key")
     patch("First")
     bpy.ops.ed.undo_push(message="plain")
     sb.make_skin(bpy.data.objects["First"], thickness=THIN)
@@ -46,7 +46,7 @@ def check_undo_of_making_a_skin(_work):
 
 
 def check_save_and_load(work):
-    key = lamp("Key", color=(0.3, 0.6, 0.9))
+    key = add_light("Key", color=(0.3, 0.6, 0.9))
     obj = skin()
     expected = sb.lut(obj, depsgraph())
     path = str(work / "saved.blend")
@@ -75,7 +75,7 @@ def check_save_and_load(work):
 
 
 def _library(work):
-    lamp("Library lamp")
+    add_light("Library lamp")
     skin("Library skin")
     depsgraph()
     path = str(work / "library.blend")
@@ -93,7 +93,7 @@ def _load(path, linked):
 def check_append(work):
     path = _library(work)
     own = skin("Own")
-    key = lamp("Key", color=(0.1, 0.9, 0.4))
+    key = add_light("Key", color=(0.1, 0.9, 0.4))
     appended = link(_load(path, linked=False))
     appended.location = (2.0, 0.0, 0.0)
     assert_fresh(own, appended)
@@ -104,7 +104,7 @@ def check_append(work):
 def check_linked_and_overridden_libraries(work):
     path = _library(work)
     own = skin("Own")
-    key = lamp("Key", color=(0.1, 0.9, 0.4))
+    key = add_light("Key", color=(0.1, 0.9, 0.4))
     linked = link(_load(path, linked=True))
     assert_fresh(own, linked)
     key.location.z = 2.5
@@ -119,7 +119,7 @@ def check_linked_and_overridden_libraries(work):
 def check_materials_that_bring_another_node_group(work):
     """A skin that is given an appended skin's material, also by its mesh's other user, moves to what that shows."""
     path = _library(work)
-    key = lamp("Key", color=(0.1, 0.9, 0.4))
+    key = add_light("Key", color=(0.1, 0.9, 0.4))
     own = skin("Own")
     sharing = link(own.copy())
     sharing.location.x = 2.0
@@ -145,10 +145,10 @@ def check_materials_that_bring_another_node_group(work):
 
 
 def check_two_scenes(_work):
-    """Each scene has lamps of its own and skins of its own."""
+    """Each scene has lights of its own and skins of its own."""
     first_scene = bpy.context.scene
     one = skin("One")
-    lamp("First lamp", color=(1.0, 0.0, 0.0))
+    add_light("First lamp", color=(1.0, 0.0, 0.0))
     assert_fresh(one)
     second_scene = bpy.data.scenes.new("Second")
     two = one.copy()
@@ -171,15 +171,15 @@ def check_frames_with_two_view_layers(_work):
     scene, window = bpy.context.scene, bpy.context.window_manager.windows[0]
     extra = bpy.data.collections.new("Extra")
     scene.collection.children.link(extra)
-    key, fill = lamp("Key", color=(1.0, 0.0, 0.0)), lamp("Fill", color=(0.0, 0.0, 1.0), collection=extra)
+    key, fill = add_light("Key", color=(1.0, 0.0, 0.0)), add_light("Fill", color=(0.0, 0.0, 1.0), collection=extra)
     obj = skin()
     layers = [scene.view_layers[0], scene.view_layers.new("Second")]
     layers[1].layer_collection.children["Extra"].exclude = True
-    for layer, lamps in ((0, [key, fill]), (1, [key]), (0, [key, fill])):
+    for layer, objects in ((0, [key, fill]), (1, [key]), (0, [key, fill])):
         window.view_layer = layers[layer]
         sb.update(depsgraph())
-        assert_shows(obj, paper_table(lamps))
+        assert_shows(obj, paper_table(objects))
         for frame in (2, 3):
             scene.frame_set(frame)
-            assert_shows(obj, paper_table(lamps))
+            assert_shows(obj, paper_table(objects))
             assert sb.update(depsgraph()) == []

@@ -8,7 +8,7 @@ import skinglow as sg
 import skinglow_blender as sb
 from skinglow_blender import live_update
 
-from inside.scenes import assert_shows, camera_above, depsgraph, lamp, paper_table, patch
+from inside.scenes import add_light, assert_shows, camera_above, depsgraph, paper_table, patch
 
 THIN = [0.0, 1.0, 2.0, 3.0]
 
@@ -26,7 +26,7 @@ def check_objects_that_cannot_be_skins(_work):
     empty = bpy.data.objects.new("Nothing", bpy.data.meshes.new("Nothing"))
     bpy.context.scene.collection.objects.link(empty)
     refused(sb.SkinError, "'Nothing' has no faces", sb.make_skin, empty)
-    refused(sb.SkinError, "'Lamp' is not a mesh", sb.make_skin, lamp())
+    refused(sb.SkinError, "'Lamp' is not a mesh", sb.make_skin, add_light())
     flat = patch("Flat")
     flat.scale.x = 0.0
     depsgraph()
@@ -47,7 +47,7 @@ def check_settings(_work):
 
 
 def check_missing_image_keeps_the_last_good_lookup(work):
-    key = lamp()
+    key = add_light()
     obj = patch()
     sb.make_skin(obj, thickness=THIN)
     before = sb.lut(obj, depsgraph())
@@ -67,7 +67,7 @@ def check_missing_image_keeps_the_last_good_lookup(work):
 
 def check_absent_core(_work):
     """Without the compiled package: words, no exception out of a handler, the last lookup stays, and back again."""
-    key = lamp()
+    key = add_light()
     obj = patch()
     sb.make_skin(obj, thickness=THIN)
     before = sb.lut(obj, depsgraph())
@@ -87,9 +87,9 @@ def check_absent_core(_work):
     assert_shows(obj, paper_table([key]))
 
 
-def check_lamps_that_the_core_refuses(_work):
-    """A lamp of infinite power is a fault in words that names it; taken away, all is well."""
-    key, wild = lamp("Key"), lamp("Wild")
+def check_lights_that_the_core_refuses(_work):
+    """A light of infinite power is a fault in words that names it; taken away, all is well."""
+    key, wild = add_light("Key"), add_light("Wild")
     obj = patch()
     sb.make_skin(obj, thickness=THIN)
     before = sb.lut(obj, depsgraph())
@@ -122,7 +122,7 @@ def check_open_mirrored_and_messy_meshes(_work):
     assert 0.0 <= low <= high < np.inf
 
 
-def check_no_lamps(_work):
+def check_no_lights(_work):
     obj = patch()
     sb.make_skin(obj, thickness=THIN)
     assert_shows(obj, paper_table([]))
@@ -141,9 +141,9 @@ def check_export_without_camera_or_folder(work):
 
 
 def check_what_the_report_says(_work):
-    key, _dark, hidden = lamp("Key"), lamp("Dark", energy=0.0), lamp("Hidden")
+    key, _dark, hidden = add_light("Key"), add_light("Dark", energy=0.0), add_light("Hidden")
     hidden.hide_viewport = True
-    blind = lamp("Blind")
+    blind = add_light("Blind")
     blind.visible_diffuse = False
     obj = patch()
     for mode in ("paper", "physical"):

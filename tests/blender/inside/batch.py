@@ -67,10 +67,10 @@ def check_manifest_tells_what_each_picture_was_made_with(work):
         table = (gray()[:, None] * (BLOOD + light)).astype("<f4")
         assert skin["lookup"]["entries"] == 256
         assert skin["lookup"]["sha256"] == hashlib.sha256(table.tobytes()).hexdigest()
-        lamps = {row["name"]: row for row in skin["lamps"]}
-        assert lamps[f"{entry['rig']} lamp"]["share"] == 1.0
+        rows = {row["name"]: row for row in skin["lamps"]}
+        assert rows[f"{entry['rig']} lamp"]["share"] == 1.0
         (other,) = set(RIGS) - {entry["rig"]}
-        assert lamps[f"{other} lamp"]["reason"] == "hidden in renders"
+        assert rows[f"{other} lamp"]["reason"] == "hidden in renders"
 
 
 def check_interrupted_batch_goes_on_with_what_is_missing(work):
@@ -161,12 +161,12 @@ def check_names_of_files(work):
 def check_a_picture_that_fails_does_not_stop_the_others(work):
     """A frame whose lookup would be too bright for an image: its picture is not written, and the reason is told."""
     studio()
-    lamp_data = bpy.data.lights["warm lamp"]
+    light_data = bpy.data.lights["warm lamp"]
     bpy.data.objects["Patch"].skinglow.mode = "PHYSICAL"
     for frame, energy in ((1, 10.0), (2, 3e38), (3, 10.0)):
-        lamp_data.energy = energy
-        lamp_data.keyframe_insert("energy", frame=frame)
-    lamp_data.shadow_soft_size = 0.0
+        light_data.energy = energy
+        light_data.keyframe_insert("energy", frame=frame)
+    light_data.shadow_soft_size = 0.0
     bpy.data.objects["warm lamp"].location.z = 1e-3
     result = sb.render_batch(work / "fails", rigs=["warm"])
     assert names(result.rendered, work / "fails") == ["warm/0001.exr", "warm/0003.exr"], result

@@ -20,11 +20,11 @@ from inside.batch_studio import (
     shown_in,
     studio,
 )
-from inside.scenes import TABLE_1, depsgraph, lamp
+from inside.scenes import TABLE_1, add_light, depsgraph
 
 
 def check_rig_file_is_placed_and_removed(work):
-    """The paper's Table 1: its lamps light the pictures, the scene's own do not, and nothing is left of them."""
+    """The paper's Table 1: its lights light the pictures, the scene's own do not, and nothing is left of them."""
     _, obj = studio()
     before = everything()
     folder = work / "file"
@@ -41,7 +41,7 @@ def check_rig_file_is_placed_and_removed(work):
     bpy.context.scene.camera.location = (2.0, 3.0, 9.0)
     sb.render_batch(work / "onto", 1, {"there": DATA / "table1.json"}, onto=obj)
     np.testing.assert_allclose(shown_in(work / "onto/there/0001.exr"), expected(*lights), rtol=2e-6)
-    # A rig of all kinds of lamp, which give in mode physical what the core computes for the file itself.
+    # A rig of all kinds of light, which give in mode physical what the core computes for the file itself.
     obj.skinglow.mode = "PHYSICAL"
     before = everything()
     rig = sg.read_light_rig(DATA / "all_kinds.json")
@@ -72,7 +72,7 @@ def as_this_blender_has_it(light):
 
 
 def check_studio_light(work):
-    """Blender's own format of lamps, which are suns."""
+    """Blender's own format of lights, which are suns."""
     studio()
     sb.render_batch(work / "sl", 1, [DATA / "two_lamps.sl"])
     (entry,) = manifest_of(work / "sl")
@@ -81,17 +81,17 @@ def check_studio_light(work):
     assert entry["notes"] == sg.read_light_rig(DATA / "two_lamps.sl").notes
 
 
-def check_lamps_by_name_and_hidden_ones(work):
-    """Rigs by lamp names; a lamp hidden in renders shines where it is named; instanced and animated ones are hidden."""
+def check_lights_by_name_and_hidden_ones(work):
+    """Rigs by light names: a light hidden in renders is visible if named; instanced and animated ones are hidden."""
     studio()
-    hidden = lamp("Hidden", color=(0.0, 1.0, 0.0), location=(0.0, 0.0, 2.0))
+    hidden = add_light("Hidden", color=(0.0, 1.0, 0.0), location=(0.0, 0.0, 2.0))
     hidden.hide_render = True
-    blinking = lamp("Blinking", color=(1.0, 1.0, 1.0), location=(0.0, 0.0, 0.5))
+    blinking = add_light("Blinking", color=(1.0, 1.0, 1.0), location=(0.0, 0.0, 0.5))
     for frame in (1, 2):
         blinking.hide_render = frame == 2
         blinking.keyframe_insert("hide_render", frame=frame)
     inside = bpy.data.collections.new("Inside")
-    lamp("Instanced", color=(0.0, 0.0, 1.0), location=(0.0, 0.0, 3.0), collection=inside)
+    add_light("Instanced", color=(0.0, 0.0, 1.0), location=(0.0, 0.0, 3.0), collection=inside)
     instancer = bpy.data.objects.new("Instancer", None)
     instancer.instance_type, instancer.instance_collection = "COLLECTION", inside
     bpy.context.scene.collection.objects.link(instancer)
@@ -117,7 +117,7 @@ def check_lamps_by_name_and_hidden_ones(work):
 
 
 def check_former_name_of_a_rigs_lights(_work):
-    """`Rig.lamps` and the keyword still work, with a DeprecationWarning; nothing warns without them."""
+    """`Rig.lights` and the keyword still work, with a DeprecationWarning; nothing warns without them."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         old = sb.Rig("day", lamps=("Key",))
@@ -143,7 +143,7 @@ def check_collection_disabled_in_renders_is_a_rig(work):
     sb.render_batch(work / "off", 1, ["cold"])
     np.testing.assert_allclose(shown_in(work / "off/cold/0001.exr"), expected((color_at("cold", 1), 1.0)), rtol=1e-5)
     assert_same(before)
-    # By its own name the lamp stays in a collection that is off: the picture fails and says why.
+    # By its own name the light stays in a collection that is off: the picture fails and says why.
     result = sb.render_batch(work / "still_off", 1, {"lamp": ["cold lamp"], "warm": ["warm"]})
     ((path, reason),) = result.failed
     assert path.parent.name == "lamp" and "'cold lamp'" in reason and "disabled in renders" in reason
@@ -152,9 +152,9 @@ def check_collection_disabled_in_renders_is_a_rig(work):
     assert_same(before)
 
 
-def check_another_scene_and_linked_lamps(work):
-    """A scene that is not the window's, whose lamps come from a library: they are hidden and shown as its own are."""
-    key, fill = lamp("Key", color=(1.0, 0.0, 0.0)), lamp("Fill", color=(0.0, 0.0, 1.0))
+def check_another_scene_and_linked_lights(work):
+    """A scene that is not the window's, whose lights come from a library: they are hidden and shown as its own are."""
+    key, fill = add_light("Key", color=(1.0, 0.0, 0.0)), add_light("Fill", color=(0.0, 0.0, 1.0))
     library = work / "lamps.blend"
     bpy.data.libraries.write(str(library), {key, fill})
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -181,16 +181,16 @@ def check_another_scene_and_linked_lamps(work):
 
 
 def check_light_at_each_pixel_has_room_for_every_rig(work):
-    """Weights on the surface need nodes by the number of lamps, which cannot be made while rendering."""
+    """Weights on the surface need nodes by the number of lights, which cannot be made while rendering."""
     _, obj = studio()
     many = bpy.data.collections.new("many")
     bpy.context.scene.collection.children.link(many)
     for number in range(6):
         place = (np.cos(number), np.sin(number), 0.3)
-        lamp(f"Many {number}", "AREA", location=place, collection=many)
+        add_light(f"Many {number}", "AREA", location=place, collection=many)
     depsgraph()
-    for obj_lamp in many.objects:
-        obj_lamp.hide_viewport = True
+    for each in many.objects:
+        each.hide_viewport = True
     before = everything()
     obj.skinglow.mode, obj.skinglow.weights = "PHYSICAL", "SURFACE"
     result = sb.render_batch(work / "surface", 1, ["warm", "many", DATA / "all_kinds.json"])

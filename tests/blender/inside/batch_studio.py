@@ -9,11 +9,11 @@ import skinglow_blender as sb
 
 from inside.scenes import (
     BLOOD,
+    add_light,
     black_material,
     camera_above,
     depsgraph,
     gray,
-    lamp,
     patch,
     read_exr,
     render_settings,
@@ -29,11 +29,11 @@ def color_at(rig, frame):
 
 
 def studio():
-    """A patch of no thickness, and a collection of one lamp for each rig, its color keyed on every frame."""
+    """A patch of no thickness, and a collection of one light for each rig, its color keyed on every frame."""
     for rig in RIGS:
         collection = bpy.data.collections.new(rig)
         bpy.context.scene.collection.children.link(collection)
-        obj = lamp(f"{rig} lamp", location=(0.0, 0.0, 1.0), collection=collection)
+        obj = add_light(f"{rig} lamp", location=(0.0, 0.0, 1.0), collection=collection)
         for frame in FRAMES:
             obj.data.color = color_at(rig, frame)
             obj.data.keyframe_insert("color", frame=frame)
@@ -47,7 +47,7 @@ def studio():
 
 
 def expected(*lights):
-    """Eq. 1 to 3 at no thickness for lamps of (color, distance)."""
+    """Eq. 1 to 3 at no thickness for lights of (color, distance)."""
     weight = BLOOD + sum(np.asarray(color, np.float32).astype(float) / (1.0 + d**2) for color, d in lights)
     return gray()[0] * weight
 
@@ -74,7 +74,7 @@ def raises(text, function, *arguments, **named):
 
 
 def everything():
-    """What a batch may not change: settings of the scene, of every object and lamp, and which data there are."""
+    """What a batch may not change: settings of the scene, of every object and light, and which data there are."""
     scene = bpy.context.scene
     depsgraph()
     state = {

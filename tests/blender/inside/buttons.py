@@ -5,7 +5,7 @@ import numpy as np
 import skinglow_blender as sb
 from skinglow_blender import live_update
 
-from inside.scenes import assert_fresh, camera_above, depsgraph, lamp, patch
+from inside.scenes import add_light, assert_fresh, camera_above, depsgraph, patch
 
 sb.register()
 
@@ -16,7 +16,7 @@ def ball():
 
 
 def check_make_update_reset_remove(_work):
-    key = lamp("Key")
+    key = add_light("Key")
     obj = ball()
     obj.skinglow.unit_mm = 10.0
     assert bpy.ops.skinglow.make() == {"FINISHED"}
@@ -40,7 +40,7 @@ def check_make_update_reset_remove(_work):
 
 
 def check_undo_of_each(_work):
-    lamp("Key")
+    add_light("Key")
     name = ball().name
     bpy.ops.ed.undo_push(message="ball")
     bpy.ops.skinglow.make("EXEC_DEFAULT", True)
@@ -66,7 +66,7 @@ def check_errors_in_words(_work):
 
 
 def check_export(work):
-    lamp("Key")
+    add_light("Key")
     ball()
     bpy.ops.skinglow.make()
     camera_above()
@@ -76,7 +76,7 @@ def check_export(work):
 
 def check_ten_thousand_updates_leave_nothing(_work):
     """No datablock, no growth of what is remembered."""
-    key = lamp("Key")
+    key = add_light("Key")
     obj = patch()
     sb.make_skin(obj, thickness=[1.0] * 4)
     names = ("images", "node_groups", "materials", "meshes", "objects", "lights", "textures", "actions")
@@ -91,9 +91,9 @@ def check_ten_thousand_updates_leave_nothing(_work):
     assert sb.update(graph) == []
 
 
-def check_nothing_is_tagged_when_lamps_stay(_work):
+def check_nothing_is_tagged_when_lights_stay(_work):
     """Editing something else computes nothing, writes nothing and so calls nothing again."""
-    lamp("Key")
+    add_light("Key")
     obj, other = patch(), patch("Other")
     sb.make_skin(obj, thickness=[1.0] * 4)
     depsgraph()

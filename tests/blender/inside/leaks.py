@@ -7,7 +7,7 @@ from pathlib import Path
 import bpy
 import skinglow_blender as sb
 
-from inside.scenes import black_material, depsgraph, lamp, patch
+from inside.scenes import add_light, black_material, depsgraph, patch
 
 UPDATES = 10_000
 #: MB by which a process may grow besides: allocators keep what they had.
@@ -27,8 +27,8 @@ def resident_mb():
 
 
 def check_ten_thousand_updates(_work):
-    """Of a lamp's color and place, each seen by the handlers, each a new table."""
-    lamp("Key")
+    """Of a light's color and place, each seen by the handlers, each a new table."""
+    add_light("Key")
     obj = patch(material=black_material())
     sb.make_skin(obj, thickness=[0.0, 1.0, 2.0, 3.0])
     depsgraph()
@@ -44,7 +44,7 @@ def check_ten_thousand_updates(_work):
                 shown.add(sb.lut(obj, bpy.context.evaluated_depsgraph_get()).tobytes())
         return len(shown)
 
-    # What is remembered of lamps and tables is full by then, and grows no more.
+    # What is remembered of lights and tables is full by then, and grows no more.
     change(5000)
     before, memory = datablocks(), resident_mb()
     assert change(UPDATES) == UPDATES // 500

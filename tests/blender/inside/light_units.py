@@ -1,4 +1,4 @@
-"""Every kind of lamp on a white Lambert plane: what Cycles renders, against the core, to 0.5 %."""
+"""Every kind of light on a white Lambert plane: what Cycles renders, against the core, to 0.5 %."""
 
 import math
 
@@ -8,7 +8,7 @@ import skinglow as sg
 from mathutils import Vector
 from skinglow_blender import scene_lights
 
-from inside.scenes import camera_above, depsgraph, lamp, patch, read_exr, render_settings
+from inside.scenes import add_light, camera_above, depsgraph, patch, read_exr, render_settings
 
 AGREEMENT = 0.005
 UP = np.array([[0.0, 0.0, 1.0]])
@@ -56,8 +56,8 @@ def core_irradiance(obj):
 
 
 def compare(work, scene, kind, location, aim=(0.0, 0.0, 0.0), scale=(1.0, 1.0, 1.0), setup=None, **settings):
-    """Places one lamp that looks at `aim`; returns the worst relative difference of Cycles and the core."""
-    obj = lamp(kind=kind, energy=100.0, color=(1.0, 0.5, 0.25), location=location)
+    """Places one light that looks at `aim`; returns the worst relative difference of Cycles and the core."""
+    obj = add_light(kind=kind, energy=100.0, color=(1.0, 0.5, 0.25), location=location)
     obj.rotation_euler = (Vector(aim) - Vector(location)).to_track_quat("-Z", "Y").to_euler()
     obj.scale = scale
     obj.visible_camera = False
@@ -161,7 +161,7 @@ def check_nodes(work):
 
 
 def check_settings_of_4_5(work):
-    """Exposure, temperature and lamps that are not normalized; Blender before 4.5 has none of them."""
+    """Exposure, temperature and lights that are not normalized; Blender before 4.5 has none of them."""
     if "exposure" not in bpy.types.Light.bl_rna.properties:
         assert bpy.app.version < (4, 5, 0)
         return None

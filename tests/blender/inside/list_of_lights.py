@@ -7,7 +7,7 @@ import numpy as np
 import skinglow_blender as sb
 from skinglow_blender import light_list, live_update
 
-from inside.scenes import depsgraph, lamp, patch
+from inside.scenes import add_light, depsgraph, patch
 
 sb.register()
 
@@ -28,9 +28,9 @@ def redraw(obj):
     return light_list.list_of(obj, context), filled
 
 
-def check_a_hundred_lamps(_work):
+def check_a_hundred_lights(_work):
     for i in range(100):
-        lamp(f"Lamp {i:03}", location=(0.0, 0.0, 1.0 + (i * 37) % 100), energy=0.0 if i % 10 == 0 else 1.0)
+        add_light(f"Lamp {i:03}", location=(0.0, 0.0, 1.0 + (i * 37) % 100), energy=0.0 if i % 10 == 0 else 1.0)
     obj = skin()
     lights, _filled = redraw(obj)
     report = {row["name"]: row for row in sb.light_report(obj, depsgraph())}
@@ -47,7 +47,7 @@ def check_a_hundred_lamps(_work):
 
 
 def check_redraws_compute_nothing(_work):
-    lamp("Key")
+    add_light("Key")
     obj = skin()
     calls = []
     report = light_list.light_report
@@ -73,10 +73,10 @@ def check_redraws_compute_nothing(_work):
 
 
 def check_the_list_follows_edits(_work):
-    key = lamp("Key")
+    key = add_light("Key")
     obj = skin()
     assert [row.name for row in redraw(obj)[0].rows] == ["Key"]
-    lamp("Bright", color=(5.0, 5.0, 5.0))
+    add_light("Bright", color=(5.0, 5.0, 5.0))
     depsgraph()
     lights = redraw(obj)[0]
     assert [row.name for row in lights.rows] == ["Bright", "Key"]
@@ -93,8 +93,8 @@ def check_the_list_follows_edits(_work):
     assert [row.name for row in lights.rows] == ["Bright"] and lights.active == 0
 
 
-def check_the_chosen_lamp_stays_chosen(_work):
-    key, rim = lamp("Key"), lamp("Rim", color=(0.1, 0.1, 0.1))
+def check_the_chosen_light_stays_chosen(_work):
+    key, rim = add_light("Key"), add_light("Rim", color=(0.1, 0.1, 0.1))
     obj = skin()
     lights = redraw(obj)[0]
     lights.active = 1
@@ -106,7 +106,7 @@ def check_the_chosen_lamp_stays_chosen(_work):
 
 
 def check_a_list_for_each_skin_and_none_for_the_gone(_work):
-    lamp("Key")
+    add_light("Key")
     first = skin()
     redraw(first)
     second = skin()
@@ -123,7 +123,7 @@ def check_a_list_for_each_skin_and_none_for_the_gone(_work):
 
 
 def check_unregistering_leaves_no_list(_work):
-    lamp("Key")
+    add_light("Key")
     redraw(skin())
     sb.unregister()
     try:

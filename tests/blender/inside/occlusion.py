@@ -1,4 +1,4 @@
-"""Other objects between lamps and a skin's far side: darkened, lit again, and told."""
+"""Other objects between lights and a skin's far side: darkened, lit again, and told."""
 
 import math
 
@@ -10,7 +10,7 @@ from skinglow_blender import handlers, occlusion
 from skinglow_blender.live_update import STATE
 
 from inside.light_units import rendered_irradiance, stage
-from inside.scenes import depsgraph, lamp, link, patch, render_settings
+from inside.scenes import add_light, depsgraph, link, patch, render_settings
 
 THIN = [1.0, 1.0, 1.0, 1.0]
 
@@ -28,8 +28,8 @@ def wall(name="Wall", size=1.0, location=(0.0, 0.0, 0.5)):
     return patch(name, size=size, location=location)
 
 
-def point_lamp(name="Key", location=(0.0, 0.0, 1.0), **settings):
-    obj = lamp(name, energy=40.0, location=location, **settings)
+def point_light(name="Key", location=(0.0, 0.0, 1.0), **settings):
+    obj = add_light(name, energy=40.0, location=location, **settings)
     obj.data.shadow_soft_size = 0.0
     return obj
 
@@ -47,7 +47,7 @@ def switch(on=True):
 
 
 def check_off_by_default_and_costs_nothing(_work):
-    point_lamp()
+    point_light()
     obj = head()
     free = brightness(obj)
     wall()
@@ -58,7 +58,7 @@ def check_off_by_default_and_costs_nothing(_work):
 
 
 def check_wall_darkens_and_moves_away(_work):
-    point_lamp()
+    point_light()
     obj = head()
     free = brightness(obj)
     switch()
@@ -72,7 +72,7 @@ def check_wall_darkens_and_moves_away(_work):
     between.location.x = 5.0
     assert brightness(obj) == free
     assert row_of(obj)["reason"] == ""
-    between.location = (0.0, 0.0, 1.5)  # behind the lamp
+    between.location = (0.0, 0.0, 1.5)  # behind the light
     assert brightness(obj) == free
     between.location = (0.0, 0.0, 0.5)
     assert brightness(obj) == 0.0
@@ -85,7 +85,7 @@ def check_wall_darkens_and_moves_away(_work):
 
 
 def check_why_it_was_rebuilt(_work):
-    point_lamp()
+    point_light()
     obj = head()
     switch()
     between = wall(location=(5.0, 0.0, 0.5))
@@ -102,8 +102,8 @@ def check_why_it_was_rebuilt(_work):
     assert obj.name == rebuilt.skin
 
 
-def check_moving_a_lamp_only_traces(_work):
-    key = point_lamp()
+def check_moving_a_light_only_traces(_work):
+    key = point_light()
     obj = head()
     switch()
     between = wall()
@@ -117,8 +117,8 @@ def check_moving_a_lamp_only_traces(_work):
     assert occlusion._by_mode["VIEWPORT"].scene is not scene
 
 
-def check_half_covered_area_lamp_is_about_half(_work):
-    key = lamp("Key", kind="AREA", energy=40.0, location=(0.0, 0.0, 1.0))
+def check_half_covered_area_light_is_about_half(_work):
+    key = add_light("Key", kind="AREA", energy=40.0, location=(0.0, 0.0, 1.0))
     key.data.shape, key.data.size = "DISK", 0.5
     obj = head(radius=0.01)
     free = brightness(obj)
@@ -135,7 +135,7 @@ def check_half_covered_area_lamp_is_about_half(_work):
 
 
 def check_paper_is_kept_to_the_letter(_work):
-    point_lamp()
+    point_light()
     obj = head()
     obj.skinglow.mode = "PAPER"
     before = sb.lut(obj, depsgraph())
@@ -147,7 +147,7 @@ def check_paper_is_kept_to_the_letter(_work):
 
 def check_thick_places_do_not_count(_work):
     """Half of the skin is too thick for light; only the thin half asks what it sees."""
-    point_lamp(location=(1.0, 0.0, 0.0))
+    point_light(location=(1.0, 0.0, 0.0))
     obj = head()
     x = np.array([v.co.x for v in obj.data.vertices])
     sb.make_skin(obj, thickness=np.where(x > 0.0, 3.0, 80.0))
@@ -160,7 +160,7 @@ def check_thick_places_do_not_count(_work):
 
 
 def check_faults_keep_the_last_lookup(_work):
-    point_lamp()
+    point_light()
     obj = head()
     switch()
     wall(location=(5.0, 0.0, 0.5))
@@ -183,7 +183,7 @@ def check_faults_keep_the_last_lookup(_work):
 
 def check_renders_have_occluders_of_their_own(work):
     """A wall that only renders is seen by the render's lookup, frame by frame, and not by the viewport's."""
-    point_lamp()
+    point_light()
     obj = head()
     switch()
     between = wall()
@@ -215,9 +215,9 @@ def check_renders_have_occluders_of_their_own(work):
 
 
 def check_against_cycles(work):
-    """A white Lambert plane partly in a wall's shadow, each kind of lamp: Cycles' darkening is the visible share."""
+    """A white Lambert plane partly in a wall's shadow, each kind of light: Cycles' darkening is the visible share."""
     scene = stage()
-    # Over the edge of a wall between plane and lamp, out of the camera's way.
+    # Over the edge of a wall between plane and light, out of the camera's way.
     between = wall(size=4.0, location=(2.1, 0.0, 1.0))
     between.visible_camera = False
     graph = depsgraph()
@@ -233,7 +233,7 @@ def check_against_cycles(work):
     }
     result = {}
     for name, (kind, fields) in cases.items():
-        obj = lamp(kind=kind, energy=100.0, location=(0.0, 0.0, 2.0))
+        obj = add_light(kind=kind, energy=100.0, location=(0.0, 0.0, 2.0))
         obj.visible_camera = False
         for field, value in fields.items():
             setattr(obj.data, field, value)

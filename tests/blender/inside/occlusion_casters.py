@@ -3,12 +3,12 @@
 import bpy
 import skinglow_blender as sb
 
-from inside.occlusion import brightness, head, point_lamp, row_of, switch, wall
+from inside.occlusion import brightness, head, point_light, row_of, switch, wall
 from inside.scenes import depsgraph, link
 
 
 def check_edited_and_modified_meshes(_work):
-    point_lamp()
+    point_light()
     obj = head()
     free = brightness(obj)
     switch()
@@ -33,7 +33,7 @@ def check_edited_and_modified_meshes(_work):
 
 
 def check_edit_mode(_work):
-    point_lamp()
+    point_light()
     obj = head()
     switch()
     between = wall()
@@ -54,7 +54,7 @@ def check_edit_mode(_work):
 
 
 def check_what_does_not_cast(_work):
-    point_lamp()
+    point_light()
     obj = head()
     free = brightness(obj)
     switch()
@@ -82,7 +82,7 @@ def check_what_does_not_cast(_work):
     between.hide_set(False)
     sb.update(depsgraph())
     assert brightness(obj) == 0.0
-    # A lamp that casts no shadows.
+    # A light that casts no shadows.
     data = bpy.data.lights["Key"]
     owner, name = (data.cycles, "cast_shadow") if hasattr(data.cycles, "cast_shadow") else (data, "use_shadow")
     setattr(owner, name, False)
@@ -91,7 +91,7 @@ def check_what_does_not_cast(_work):
 
 
 def check_curves_and_instances_cast(_work):
-    point_lamp()
+    point_light()
     obj = head()
     free = brightness(obj)
     switch()
@@ -120,7 +120,7 @@ def check_curves_and_instances_cast(_work):
 
 
 def check_another_skin_casts(_work):
-    point_lamp()
+    point_light()
     obj = head()
     switch()
     free = brightness(obj)
@@ -132,7 +132,7 @@ def check_another_skin_casts(_work):
 
 
 def check_a_skin_that_is_hidden_or_flat(_work):
-    point_lamp()
+    point_light()
     obj = head()
     switch()
     between = wall()
@@ -155,7 +155,7 @@ def check_a_skin_that_is_hidden_or_flat(_work):
 
 
 def check_undo_save_and_load(work):
-    point_lamp()
+    point_light()
     free = brightness(head())
     switch()
     wall(location=(5.0, 0.0, 0.5))

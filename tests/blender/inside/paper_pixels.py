@@ -1,11 +1,11 @@
-"""The pixels of the lookup against Eq. 1 to 3, and what follows the lamps and what does not."""
+"""The pixels of the lookup against Eq. 1 to 3, and what follows the lights and what does not."""
 
 import bpy
 import numpy as np
 import skinglow as sg
 import skinglow_blender as sb
 
-from inside.scenes import assert_shows, depsgraph, lamp, paper_table, patch, table_1
+from inside.scenes import add_light, assert_shows, depsgraph, paper_table, patch, table_1
 
 THIN = [0.0, 1.0, 2.0, 3.0]
 
@@ -29,21 +29,21 @@ def check_table_1_by_hand(_work):
 
 
 def check_pixels_are_exact(_work):
-    """Bit by bit: single precision of the table from the lamps as Blender stores them."""
-    lamps = table_1()
+    """Bit by bit: single precision of the table from the lights as Blender stores them."""
+    objects = table_1()
     obj = patch()
     state = sb.make_skin(obj, thickness=THIN, mode="paper")
     assert state.point == (0.0, 0.0, 0.0)
     lights = [
-        sg.Light(color=tuple(o.data.color), position=tuple(o.matrix_world.translation), name=o.name) for o in lamps
+        sg.Light(color=tuple(o.data.color), position=tuple(o.matrix_world.translation), name=o.name) for o in objects
     ]
     table = sg.recolor(sg.six_gaussian_base(256, 12.0), np.add((1.8, 0.5, 0.4), sg.light_weight(lights, (0, 0, 0))))
     np.testing.assert_array_equal(sb.lut(obj, depsgraph()), table.astype(np.float32))
-    assert_shows(obj, paper_table(lamps))
+    assert_shows(obj, paper_table(objects))
 
 
 def check_paper_follows_existing_does_not(_work):
-    red = lamp(color=(1.0, 0.0, 0.0))
+    red = add_light(color=(1.0, 0.0, 0.0))
     paper, existing = patch("Paper"), patch("Existing")
     sb.make_skin(paper, thickness=THIN, mode="paper")
     sb.make_skin(existing, thickness=THIN, mode="existing")
@@ -55,8 +55,8 @@ def check_paper_follows_existing_does_not(_work):
         np.testing.assert_array_equal(sb.lut(existing, depsgraph()), fixed)
 
 
-def check_each_edit_of_a_lamp(_work):
-    key, rim = lamp("Key"), lamp("Rim", color=(0.2, 0.4, 1.0), location=(1.0, 2.0, 0.5))
+def check_each_edit_of_a_light(_work):
+    key, rim = add_light("Key"), add_light("Rim", color=(0.2, 0.4, 1.0), location=(1.0, 2.0, 0.5))
     obj = patch()
     sb.make_skin(obj, thickness=THIN)
     assert_shows(obj, paper_table([key, rim]))
@@ -86,7 +86,7 @@ def check_each_edit_of_a_lamp(_work):
 
 
 def check_settings_of_the_formula(_work):
-    key = lamp(location=(0.5, 0.75, 2.0))
+    key = add_light(location=(0.5, 0.75, 2.0))
     obj = patch()
     sb.make_skin(obj, thickness=THIN, attenuation=(0.5, 0.25, 2.0), size=64, max_thickness_mm=8.0)
     assert_shows(obj, paper_table([key], size=64, thickest=8.0, coefficients=(0.5, 0.25, 2.0)))
@@ -101,7 +101,7 @@ def check_settings_of_the_formula(_work):
 
 
 def check_update_says_what_and_why(_work):
-    key = lamp("Key")
+    key = add_light("Key")
     obj = patch()
     state = sb.make_skin(obj, thickness=THIN, live=False)
     assert state.mode == "PAPER" and state.thickness_mm == (0.0, 3.0)
@@ -110,7 +110,7 @@ def check_update_says_what_and_why(_work):
     (rebuilt,) = sb.update(depsgraph())
     assert rebuilt.skin == "Patch" and rebuilt.mode == "VIEWPORT" and rebuilt.why == "light 'Key': color"
     key.location.x = 1.0
-    lamp("Fill")
+    add_light("Fill")
     (rebuilt,) = sb.update(depsgraph())
     assert rebuilt.why == "light 'Fill' added; light 'Key': position", rebuilt.why
     assert sb.update(depsgraph()) == []

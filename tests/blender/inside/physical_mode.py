@@ -6,7 +6,7 @@ import skinglow as sg
 import skinglow_blender as sb
 from skinglow_blender import skin_settings
 
-from inside.scenes import BLOOD, assert_shows, depsgraph, lamp, patch, weight
+from inside.scenes import BLOOD, add_light, assert_shows, depsgraph, patch, weight
 
 THIN = [0.0, 1.0, 2.0, 3.0]
 
@@ -15,8 +15,8 @@ def physical_table(tissue, lights, point=(0.0, 0.0, 0.0)):
     return sg.recolor(sg.base_lut(tissue, 256, 12.0), sg.irradiance(lights, point) / np.pi).astype(np.float32)
 
 
-def check_radiance_of_a_point_lamp(_work):
-    key = lamp(color=(1.0, 0.5, 0.25), energy=40.0, location=(0.0, 0.0, 2.0))
+def check_radiance_of_a_point_light(_work):
+    key = add_light(color=(1.0, 0.5, 0.25), energy=40.0, location=(0.0, 0.0, 2.0))
     obj = patch()
     sb.make_skin(obj, thickness=THIN, mode="physical")
     # E = P / (4 pi d^2), by hand.
@@ -31,7 +31,7 @@ def check_radiance_of_a_point_lamp(_work):
     assert_shows(obj, (2.0 * expected).astype(np.float32), ulps=4)
 
 
-def check_dark_without_lamps(_work):
+def check_dark_without_lights(_work):
     """Unlike the paper's sum, physical skin does not glow in the dark."""
     obj = patch()
     sb.make_skin(obj, thickness=THIN, mode="physical")
@@ -41,7 +41,7 @@ def check_dark_without_lamps(_work):
 
 
 def check_sliders_and_presets(_work):
-    lamp(energy=40.0, location=(0.0, 0.0, 2.0)).data.shadow_soft_size = 0.0
+    add_light(energy=40.0, location=(0.0, 0.0, 2.0)).data.shadow_soft_size = 0.0
     light = sg.Light(power=40.0, position=(0.0, 0.0, 2.0))
     obj = patch()
     state = sb.make_skin(obj, thickness=THIN, mode="physical", preset="ear", melanin_fraction=0.1)
@@ -70,7 +70,7 @@ def check_sliders_are_the_cores(_work):
 
 
 def check_base_from_an_image(_work):
-    key = lamp(location=(0.0, 0.0, 2.0))
+    key = add_light(location=(0.0, 0.0, 2.0))
     gray = np.linspace(1.0, 0.0, 32, dtype=np.float32)
     image = bpy.data.images.new("Base", 32, 2, float_buffer=True)
     image.colorspace_settings.name = "Non-Color"
@@ -91,7 +91,7 @@ def check_base_from_an_image(_work):
 
 
 def check_base_from_the_skin(_work):
-    key = lamp(location=(0.0, 0.0, 2.0))
+    key = add_light(location=(0.0, 0.0, 2.0))
     obj = patch()
     sb.make_skin(obj, thickness=THIN, base="skin", preset="pale")
     table = sg.recolor(sg.base_lut(sg.TISSUE_PRESETS["pale"], 256, 12.0), (1.0, 1.0, 1.0))

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import skinglow_blender as sb
 
-from inside.scenes import black_material, camera_above, depsgraph, lamp, patch, read_exr, render_settings, table_1
+from inside.scenes import add_light, black_material, camera_above, depsgraph, patch, read_exr, render_settings, table_1
 
 
 def suzanne():
@@ -63,7 +63,7 @@ def check_same_light_coming_through(work):
 
 
 def check_lut_file_is_exact(work):
-    lamp("Key", location=(0.0, 0.0, 2.0))
+    add_light("Key", location=(0.0, 0.0, 2.0))
     obj = patch()
     sb.make_skin(obj, thickness=[1.0] * 4)
     camera_above()
@@ -77,9 +77,9 @@ def check_lut_file_is_exact(work):
 
 
 def check_only_what_is_used(work):
-    """No lamps where there is no surface to light; no leftovers in the file."""
-    lamp("Key", location=(0.0, 0.0, 2.0))
-    off = lamp("Off", location=(0.0, 0.0, 2.0))
+    """No lights where there is no surface to light; no leftovers in the file."""
+    add_light("Key", location=(0.0, 0.0, 2.0))
+    off = add_light("Off", location=(0.0, 0.0, 2.0))
     off.hide_viewport = True
     obj = patch()
     sb.make_skin(obj, thickness=[1.0] * 4)

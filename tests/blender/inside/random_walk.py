@@ -13,12 +13,12 @@ import skinglow_blender as sb
 from skinglow_blender.lut_image import images_of, shown_image
 
 from inside.scenes import (
+    add_light,
     black_material,
     camera_above,
     depsgraph,
     fresh_physical_table,
     fresh_table,
-    lamp,
     link,
     patch,
     render_settings,
@@ -76,7 +76,7 @@ class Walk(SceneEdits):
         return target.objects
 
     def append(self):
-        if len(self.skins()) < 6 and len(self.lamps()) < 24:
+        if len(self.skins()) < 6 and len(self.lights()) < 24:
             for obj in self.from_library(
                 False, self.random.choice((["Library skin"], ["Library lamp", "Library skin"]))
             ):
@@ -166,11 +166,11 @@ class Walk(SceneEdits):
         bpy.ops.render.render()
 
     def step(self):
-        often = (self.recolor, self.power, self.kind, self.move_lamp, self.hide_lamp, self.hide_with_h, self.add_lamp,
-                 self.duplicate_lamp, self.delete_lamp, self.rename_lamp, self.parent, self.constrain, self.key,
-                 self.drive, self.exclude, self.hide_collection, self.close_eye, self.instance, self.move_empty,
+        often = (self.recolor, self.power, self.kind, self.move_light, self.hide_light, self.hide_with_h,
+                 self.new_light, self.duplicate_light, self.delete_light, self.rename_light, self.parent,
+                 self.constrain, self.key, self.drive, self.exclude, self.hide_collection, self.close_eye, self.instance, self.move_empty,
                  self.delete_empty, self.frame, self.frame, self.add_skin, self.duplicate_skin, self.delete_skin,
-                 self.move_skin, self.mode, self.hide_lamp_in_renders, self.push_undo, self.undo)  # fmt: skip
+                 self.move_skin, self.mode, self.hide_light_in_renders, self.push_undo, self.undo)  # fmt: skip
         seldom = (self.save_and_load, self.render, self.remove_skin, self.table_size, self.change_material, self.append,
                   self.link_library, self.override, self.move_override, self.move_override, self.add_view_layer,
                   self.switch_view_layer, self.switch_view_layer, self.switch_scene, self.engine,
@@ -214,9 +214,9 @@ def expected(obj, graph):
 
 
 def write_library(path):
-    """A file with a skin and a lamp, from which they are appended and linked."""
+    """A file with a skin and a light, from which they are appended and linked."""
     sb.make_skin(patch("Library skin", material=black_material("Library")), thickness=THIN)
-    lamp("Library lamp", color=(0.2, 0.9, 0.4), location=(1.0, 1.0, 1.0))
+    add_light("Library lamp", color=(0.2, 0.9, 0.4), location=(1.0, 1.0, 1.0))
     depsgraph()
     bpy.ops.wm.save_as_mainfile(filepath=str(path))
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -234,7 +234,7 @@ def check_random_walk(work):
         for collection in collections:
             scene.collection.children.link(collection)
         sb.make_skin(patch(material=black_material()), thickness=THIN)
-        lamp("Lamp")
+        add_light("Lamp")
         camera_above()
         render_settings(2, 2)
     walk = Walk(seed, work)
@@ -244,7 +244,7 @@ def check_random_walk(work):
         for _ in range(steps):
             done.append(walk.step())
             graph = depsgraph()
-            # Lamps that Blender moves after its report (handlers.py): a window looks again, here the script does.
+            # Lights that Blender moves after its report (handlers.py): a window looks again, here the script does.
             again = sb.update(graph)
             # Without a window Blender reports no change of view layer or scene (test_in_window.py has one).
             if not done[-1].startswith("switch"):

@@ -4,12 +4,12 @@ import bpy
 import numpy as np
 import skinglow_blender as sb
 
-from inside.rendered_frames import assert_frames, render_animation, scene_with_moving_lamp
-from inside.scenes import BLOOD, black_material, camera_above, gray, lamp, patch, read_exr, render_settings
+from inside.rendered_frames import assert_frames, render_animation, scene_with_moving_light
+from inside.scenes import BLOOD, add_light, black_material, camera_above, gray, patch, read_exr, render_settings
 
 
 def check_animation_in_eevee(work):
-    scene, _ = scene_with_moving_lamp()
+    scene, _ = scene_with_moving_light()
     render_settings(16, 4, "EEVEE")
     scene.frame_end = 4
     render_animation(work / "eevee")
@@ -20,7 +20,7 @@ def check_animation_in_eevee(work):
 def check_objects_on_one_material_keep_apart(work):
     """Nine skins on one material in both engines, one a million times as bright; each shows its own lookup."""
     material = black_material()
-    key = lamp("Key", location=(0.0, 0.0, 4.0))
+    key = add_light("Key", location=(0.0, 0.0, 4.0))
     skins = []
     for i in range(9):
         obj = patch(f"Skin {i}", size=1.0, location=(i % 3 - 1.0, i // 3 - 1.0, 0.0), material=material)
@@ -46,7 +46,7 @@ def check_objects_on_one_material_keep_apart(work):
 
 def check_engines_agree(work):
     """Cycles and EEVEE on a flat patch: root of the mean square below 1/255."""
-    scene_with_moving_lamp(64)
+    scene_with_moving_light(64)
     pictures = []
     for engine in ("CYCLES", "EEVEE"):
         scene = render_settings(64, 64, engine)
@@ -63,7 +63,7 @@ def check_batch_of_rigs(work):
     """Rig after rig in one process, the first one twice: each picture shows its own lookup."""
     colors = {"red": (1.0, 0.2, 0.0), "blue": (0.0, 0.2, 1.0)}
     for name, color in colors.items():
-        lamp(name, color=color)
+        add_light(name, color=color)
     sb.make_skin(patch(material=black_material()), thickness=[0.0] * 4)
     camera_above()
     render_settings(4, 4, "EEVEE")

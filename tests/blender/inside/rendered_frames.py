@@ -6,11 +6,11 @@ import skinglow_blender as sb
 
 from inside.scenes import (
     BLOOD,
+    add_light,
     black_material,
     camera_above,
     depsgraph,
     gray,
-    lamp,
     paper_table,
     patch,
     read_exr,
@@ -33,9 +33,9 @@ def thicknesses(width):
     return (np.arange(width) + 0.5) / width * 6.0
 
 
-def scene_with_moving_lamp(width=16):
-    """A patch of strips from 0 to 6 mm thick, one for each pixel, and a lamp keyed on every frame."""
-    key = lamp("Key")
+def scene_with_moving_light(width=16):
+    """A patch of strips from 0 to 6 mm thick, one for each pixel, and a light keyed on every frame."""
+    key = add_light("Key")
     for frame in range(1, FRAMES + 1):
         key.data.color = color_at(frame)
         key.location = (0.0, 0.0, height_at(frame))
@@ -78,13 +78,13 @@ def render_animation(folder):
 
 
 def check_animation(work):
-    scene_with_moving_lamp()
+    scene_with_moving_light()
     render_animation(work / "animation")
     assert_frames(work / "animation", 2e-5)
 
 
 def check_animation_with_persistent_data(work):
-    scene, _ = scene_with_moving_lamp()
+    scene, _ = scene_with_moving_light()
     scene.render.use_persistent_data = True
     for again in ("first", "again"):
         render_animation(work / f"persistent_{again}")
@@ -93,7 +93,7 @@ def check_animation_with_persistent_data(work):
 
 def check_animation_with_motion_blur(work):
     """The picture is the frame's own, not that of a step between frames."""
-    scene, obj = scene_with_moving_lamp()
+    scene, obj = scene_with_moving_light()
     scene.render.use_motion_blur = True
     # Something that blurs, far from the picture.
     mover = patch("Mover", location=(50.0, 0.0, 0.0))
@@ -104,9 +104,9 @@ def check_animation_with_motion_blur(work):
     assert_frames(work / "blur", 2e-5)
 
 
-def check_viewport_and_render_have_lamps_of_their_own(work):
-    """One lamp for the viewport only, one for the render only; each sees its own, before, while and after."""
-    view, final = lamp("View", color=(1.0, 0.0, 0.0)), lamp("Final", color=(0.0, 0.0, 1.0))
+def check_viewport_and_render_have_lights_of_their_own(work):
+    """One light for the viewport only, one for the render only; each sees its own, before, while and after."""
+    view, final = add_light("View", color=(1.0, 0.0, 0.0)), add_light("Final", color=(0.0, 0.0, 1.0))
     view.hide_render = True
     final.hide_viewport = True
     obj = patch(material=black_material())
@@ -134,8 +134,8 @@ def check_viewport_and_render_have_lamps_of_their_own(work):
 
 
 def check_renamed_excluded_and_linked(work):
-    """Rendered: a lamp renamed, one in an excluded collection, a skin and a lamp of a library."""
-    lamp("Library lamp", color=(0.0, 1.0, 0.0), location=(0.0, 0.0, 2.0))
+    """Rendered: a light renamed, one in an excluded collection, a skin and a light of a library."""
+    add_light("Library lamp", color=(0.0, 1.0, 0.0), location=(0.0, 0.0, 2.0))
     sb.make_skin(patch("Library skin", size=1.0, material=black_material()), thickness=[0.0] * 4)
     depsgraph()
     library = str(work / "library.blend")
@@ -143,13 +143,13 @@ def check_renamed_excluded_and_linked(work):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     with bpy.data.libraries.load(library, link=True) as (_source, target):
         target.objects = ["Library skin", "Library lamp"]
-    linked, linked_lamp = target.objects
+    linked, linked_light = target.objects
     for obj in target.objects:
         bpy.context.scene.collection.objects.link(obj)
     extra = bpy.data.collections.new("Extra")
     bpy.context.scene.collection.children.link(extra)
-    key = lamp("Key", color=(1.0, 0.0, 0.0))
-    lamp("Left out", color=(0.0, 0.0, 1.0), collection=extra)
+    key = add_light("Key", color=(1.0, 0.0, 0.0))
+    add_light("Left out", color=(0.0, 0.0, 1.0), collection=extra)
     own = patch("Own", size=1.0, location=(1.0, 0.0, 0.0), material=black_material("Own"))
     sb.make_skin(own, thickness=[0.0] * 4, reference_point=(0.0, 0.0, 0.0))
     camera_above(2.0, (0.5, 0.0, 5.0))
@@ -160,18 +160,18 @@ def check_renamed_excluded_and_linked(work):
         render_settings(4, 4).render.filepath = str(work / f"linked_{red}.exr")
         bpy.ops.render.render(write_still=True)
         picture = read_exr(work / f"linked_{red}.exr")
-        expected = paper_table([key, linked_lamp])[0]
+        expected = paper_table([key, linked_light])[0]
         np.testing.assert_allclose(picture[2, 0], expected, rtol=1e-5)
         np.testing.assert_allclose(picture[2, 3], expected, rtol=1e-5)
     assert linked.library is not None
 
 
-def check_view_layers_have_lamps_of_their_own(work):
-    """A lamp that one of two view layers excludes; each layer's picture shows its own lookup."""
+def check_view_layers_have_lights_of_their_own(work):
+    """A light that one of two view layers excludes; each layer's picture shows its own lookup."""
     scene = bpy.context.scene
     extra = bpy.data.collections.new("Extra")
     scene.collection.children.link(extra)
-    key, fill = lamp("Key", color=(1.0, 0.0, 0.0)), lamp("Fill", color=(0.0, 0.0, 1.0), collection=extra)
+    key, fill = add_light("Key", color=(1.0, 0.0, 0.0)), add_light("Fill", color=(0.0, 0.0, 1.0), collection=extra)
     obj = patch(material=black_material())
     sb.make_skin(obj, thickness=[0.0] * 4)
     second = scene.view_layers.new("Second")
@@ -192,18 +192,18 @@ def check_view_layers_have_lamps_of_their_own(work):
     np.testing.assert_array_max_ulp(pictures["ViewLayer"], paper_table([key, fill]), 1)
     np.testing.assert_array_max_ulp(pictures["Second"], paper_table([key]), 1)
     # Each layer rendered by itself, and both at once, give the same pictures.
-    for layer, lamps in (("ViewLayer", [key, fill]), ("Second", [key])):
+    for layer, lights in (("ViewLayer", [key, fill]), ("Second", [key])):
         for other in scene.view_layers:
             other.use = other.name == layer
         scene.render.filepath = str(work / f"{layer}.exr")
         bpy.ops.render.render(write_still=True)
-        np.testing.assert_allclose(read_exr(work / f"{layer}.exr")[2, 2], paper_table(lamps)[0], rtol=1e-5)
+        np.testing.assert_allclose(read_exr(work / f"{layer}.exr")[2, 2], paper_table(lights)[0], rtol=1e-5)
 
 
 def check_a_skin_that_does_not_follow_renders_what_it_shows(work):
     """Live off, on a material with a skin that follows: its row is in the render's image too."""
     material = black_material()
-    key = lamp("Key", location=(0.0, 0.0, 4.0))
+    key = add_light("Key", location=(0.0, 0.0, 4.0))
     follows = patch("Follows", size=1.0, location=(-0.5, 0.0, 0.0), material=material)
     stays = patch("Stays", size=1.0, location=(0.5, 0.0, 0.0), material=material)
     for obj in (follows, stays):

@@ -60,7 +60,7 @@ def black_material(name="Black"):
     return material
 
 
-def lamp(name="Lamp", kind="POINT", color=(1.0, 1.0, 1.0), energy=10.0, location=(0.0, 0.0, 1.0), collection=None):
+def add_light(name="Lamp", kind="POINT", color=(1.0, 1.0, 1.0), energy=10.0, location=(0.0, 0.0, 1.0), collection=None):
     light = bpy.data.lights.new(name, kind)
     light.color, light.energy = color, energy
     obj = link(bpy.data.objects.new(name, light), collection)
@@ -69,13 +69,13 @@ def lamp(name="Lamp", kind="POINT", color=(1.0, 1.0, 1.0), energy=10.0, location
 
 
 def table_1():
-    """The paper's three lamps, at their distances from the origin, each on an axis of its own."""
-    lamps = []
+    """The paper's three lights, at their distances from the origin, each on an axis of its own."""
+    objects = []
     for axis, (name, color, distance) in enumerate(TABLE_1):
         location = [0.0, 0.0, 0.0]
         location[axis] = distance
-        lamps.append(lamp(name, color=[c / 255 for c in color], location=location))
-    return lamps
+        objects.append(add_light(name, color=[c / 255 for c in color], location=location))
+    return objects
 
 
 def depsgraph():
@@ -83,13 +83,13 @@ def depsgraph():
     return bpy.context.evaluated_depsgraph_get()
 
 
-def weight(lamps, point, coefficients=(1.0, 0.0, 1.0)):
-    """Eq. 2 and 3 in numpy, from the lamps as Blender has them."""
+def weight(objects, point, coefficients=(1.0, 0.0, 1.0)):
+    """Eq. 2 and 3 in numpy, from the lights as Blender has them."""
     bpy.context.view_layer.update()
     total = np.zeros(3)
-    for obj in lamps:
+    for obj in objects:
         color = np.array(obj.data.color, dtype=np.float64)
-        # A lamp that the viewport hides has no world matrix yet.
+        # A light that the viewport hides has no world matrix yet.
         free = obj.parent is None and not obj.constraints
         place = np.array(obj.location if free else obj.matrix_world.translation, dtype=np.float64)
         distance = 0.0 if obj.data.type == "SUN" else np.linalg.norm(place - np.asarray(point))
@@ -99,8 +99,8 @@ def weight(lamps, point, coefficients=(1.0, 0.0, 1.0)):
     return total
 
 
-def lamps_seen(graph):
-    """(evaluated lamp, world matrix) of all that shine in a depsgraph, instances too."""
+def visible_lights(graph):
+    """(evaluated light, world matrix) of all that shine in a depsgraph, instances too."""
     for instance in graph.object_instances:
         obj = instance.object
         if obj.type != "LIGHT" or obj.data.energy == 0.0:
@@ -112,29 +112,29 @@ def lamps_seen(graph):
 
 
 def fresh_table(obj, graph, size=256, thickest=12.0):
-    """Eq. 1 to 3 for a skin at its bounds' center, in numpy, from a depsgraph's own list of lamps."""
+    """Eq. 1 to 3 for a skin at its bounds' center, in numpy, from a depsgraph's own list of lights."""
     evaluated = obj.evaluated_get(graph)
     corners = np.array([evaluated.matrix_world @ Vector(corner) for corner in evaluated.bound_box], dtype=float)
     point = (corners[0] + corners[6]) / 2
     total = np.array(BLOOD)
-    for other, matrix in lamps_seen(graph):
+    for other, matrix in visible_lights(graph):
         distance = 0.0 if other.data.type == "SUN" else np.linalg.norm(matrix[:3, 3] - point)
         total += np.array(other.data.color, dtype=float) / (1.0 + distance**2)
     return (gray(size, thickest)[:, None] * total).astype(np.float32)
 
 
 def fresh_physical_table(obj, graph, base):
-    """M(d) E / pi for a skin at its bounds' center, from a depsgraph's own list of lamps."""
+    """M(d) E / pi for a skin at its bounds' center, from a depsgraph's own list of lights."""
     evaluated = obj.evaluated_get(graph)
     matrix = np.array(evaluated.matrix_world, dtype=float)
     corners = np.array(evaluated.bound_box, dtype=float)[[0, 6]]
     point = matrix[:3, :3] @ corners.mean(axis=0) + matrix[:3, 3]
-    lights = [physical_light(other.data, place) for other, place in lamps_seen(graph)]
+    lights = [physical_light(other.data, place) for other, place in visible_lights(graph)]
     return sg.recolor(base, sg.irradiance(lights, point) / np.pi).astype(np.float32)
 
 
 def physical_light(light, matrix):
-    """The core's lamp for one of Blender's without nodes, square where it has an area."""
+    """The core's light for one of Blender's without nodes, square where it has an area."""
     fields = {
         "kind": light.type,
         "color": light.color,
@@ -172,9 +172,9 @@ def gray(size=256, thickest=12.0):
     return sg.six_gaussian_base(size, thickest).matrices[:, 0, 0]
 
 
-def paper_table(lamps, point=(0.0, 0.0, 0.0), size=256, thickest=12.0, coefficients=(1.0, 0.0, 1.0)):
+def paper_table(objects, point=(0.0, 0.0, 0.0), size=256, thickest=12.0, coefficients=(1.0, 0.0, 1.0)):
     """Eq. 1, single precision."""
-    return (gray(size, thickest)[:, None] * (BLOOD + weight(lamps, point, coefficients))).astype(np.float32)
+    return (gray(size, thickest)[:, None] * (BLOOD + weight(objects, point, coefficients))).astype(np.float32)
 
 
 def assert_shows(obj, expected, ulps=1):

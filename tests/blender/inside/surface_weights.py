@@ -5,7 +5,7 @@ import numpy as np
 import skinglow as sg
 import skinglow_blender as sb
 
-from inside.scenes import black_material, camera_above, depsgraph, lamp, patch, read_exr, render_settings
+from inside.scenes import add_light, black_material, camera_above, depsgraph, patch, read_exr, render_settings
 
 #: A skin one layer of numbers thick would do; the light preset is the one people see first.
 THICKNESS_MM = 3.0
@@ -59,7 +59,7 @@ def largest_difference(work, engine="CYCLES"):
     return float(np.abs(shown - wanted).max() / wanted.max())
 
 
-def check_each_kind_of_lamp(work):
+def check_each_kind_of_light(work):
     """Near the exact irradiance with the skin's own angles: the cubic is 1 % off, tiles up to 1 % more."""
     skin()
     below = {"location": (0.3, -0.2, -1.5)}
@@ -74,7 +74,7 @@ def check_each_kind_of_lamp(work):
         ("AREA", {"shape": "ELLIPSE", "size": 1.0, "size_y": 0.5}),
         ("AREA", {"size": 0.4, "spread": 1.5}),
     ):
-        obj = lamp(kind=kind, energy=100.0, color=(1.0, 0.6, 0.3), **below)
+        obj = add_light(kind=kind, energy=100.0, color=(1.0, 0.6, 0.3), **below)
         obj.rotation_euler = turned
         for name, value in settings.items():
             setattr(obj.data, name, value)
@@ -89,8 +89,12 @@ def check_each_kind_of_lamp(work):
 def check_eevee_shows_the_same(work):
     """EEVEE works the same formula out, with half the digits."""
     skin()
-    lamp(kind="SPOT", energy=200.0, color=(1.0, 0.6, 0.3), location=(0.3, -0.2, -1.5)).rotation_euler = (np.pi, 0, 0)
-    lamp("Fill", energy=30.0, color=(0.2, 0.4, 1.0), location=(-0.8, 0.5, -0.8)).data.shadow_soft_size = 0.0
+    add_light(kind="SPOT", energy=200.0, color=(1.0, 0.6, 0.3), location=(0.3, -0.2, -1.5)).rotation_euler = (
+        np.pi,
+        0,
+        0,
+    )
+    add_light("Fill", energy=30.0, color=(0.2, 0.4, 1.0), location=(-0.8, 0.5, -0.8)).data.shadow_soft_size = 0.0
     cycles, eevee = pixels(work), pixels(work, "EEVEE")
     rms = float(np.sqrt(np.mean((cycles - eevee)[1:-1, 1:-1] ** 2)))
     assert cycles.max() > 0.05
@@ -100,13 +104,13 @@ def check_eevee_shows_the_same(work):
     np.testing.assert_allclose(np.maximum(eevee[1:-1, 1:-1], 0.0), wanted, rtol=0.02, atol=1e-4)
 
 
-def check_more_lamps_than_terms(work):
+def check_more_lights_than_terms(work):
     """Lights beyond the terms are treated as distant (docs/accuracy.md)."""
     skin()
     for i in range(12):
         angle = 2.0 * np.pi * i / 12
         place = (12.0 * np.cos(angle), 12.0 * np.sin(angle), -15.0)
-        lamp(f"Lamp {i}", energy=180.0 + 9.0 * i, color=(1.0, 0.6, 0.3), location=place)
+        add_light(f"Lamp {i}", energy=180.0 + 9.0 * i, color=(1.0, 0.6, 0.3), location=place)
     off = largest_difference(work)
     assert off < 0.05, off
     group = bpy.data.objects["Patch"].skinglow.group
@@ -117,8 +121,8 @@ def check_more_lamps_than_terms(work):
 
 
 def check_constant_light_gives_the_picture_of_the_object_weight(work):
-    """A distant lamp right behind a flat patch: every pixel has the same light, and AUTO knows it."""
-    sun = lamp(kind="SUN", energy=3.0, color=(1.0, 0.5, 0.2), location=(0, 0, -3))
+    """A distant light right behind a flat patch: every pixel has the same light, and AUTO knows it."""
+    sun = add_light(kind="SUN", energy=3.0, color=(1.0, 0.5, 0.2), location=(0, 0, -3))
     sun.rotation_euler, sun.data.angle = (np.pi, 0.0, 0.0), 0.0
     obj = skin()
     surface = pixels(work)
@@ -141,7 +145,7 @@ def check_constant_light_gives_the_picture_of_the_object_weight(work):
 
 def check_lookup_is_that_of_the_object_weight(_work):
     """lut() tells the table at the object's weight, whatever the nodes do with it."""
-    lamp(energy=40.0, location=(0.2, 0.0, -2.0))
+    add_light(energy=40.0, location=(0.2, 0.0, -2.0))
     obj = skin()
     surface = sb.lut(obj, depsgraph())
     state = sb.make_skin(obj, weights="object")
@@ -151,7 +155,7 @@ def check_lookup_is_that_of_the_object_weight(_work):
 
 def check_modes_share_a_material(work):
     """A paper skin and an existing one on a material whose nodes work light out at each pixel look as on their own."""
-    lamp(energy=40.0, location=(0.2, 0.0, -2.0))
+    add_light(energy=40.0, location=(0.2, 0.0, -2.0))
     material = black_material()
     alone = {}
     for mode in ("paper", "existing", "physical"):
@@ -170,23 +174,23 @@ def check_modes_share_a_material(work):
         np.testing.assert_allclose(pixels(work), picture, rtol=1e-4, atol=1e-6)
 
 
-def check_follows_lamps(work):
-    """Moved, added, hidden lamps: each picture is the core's, and the group is made again only for room."""
+def check_follows_lights(work):
+    """Moved, added, hidden lights: each picture is the core's, and the group is made again only for room."""
     obj = skin()
-    key = lamp("Key", energy=80.0, color=(1.0, 0.6, 0.3), location=(0.3, -0.2, -1.5))
+    key = add_light("Key", energy=80.0, color=(1.0, 0.6, 0.3), location=(0.3, -0.2, -1.5))
     assert largest_difference(work) < 0.02
     nodes = {n.name for n in obj.skinglow.group.nodes}
     key.location, key.data.color = (-0.5, 0.6, -0.7), (0.1, 0.2, 1.0)
     off = largest_difference(work)
     assert off < 0.02, (off, core_lights()[0].color, tuple(key.matrix_world.translation))
     assert {n.name for n in obj.skinglow.group.nodes} == nodes
-    spot = lamp("Spot", kind="SPOT", energy=300.0, location=(0.0, 0.0, -2.0))
+    spot = add_light("Spot", kind="SPOT", energy=300.0, location=(0.0, 0.0, -2.0))
     spot.rotation_euler = (np.pi, 0.1, 0.0)
     spot.data.shadow_soft_size = 0.0
     assert largest_difference(work) < 0.02
     spot.hide_viewport = spot.hide_render = True
     assert largest_difference(work) < 0.02
-    # Lamps that only render: the viewport's group has room for them from before.
+    # Lights that only render: the viewport's group has room for them from before.
     spot.hide_render = False
     rendered = pixels(work)
     spot.hide_viewport = False
@@ -195,7 +199,7 @@ def check_follows_lamps(work):
 
 
 def check_remove_takes_the_inner_groups_along(_work):
-    lamp(energy=40.0, location=(0.2, 0.0, -2.0))
+    add_light(energy=40.0, location=(0.2, 0.0, -2.0))
     before = {name: len(getattr(bpy.data, name)) for name in ("images", "node_groups")}
     obj = skin()
     assert len(bpy.data.node_groups) > 2
@@ -205,10 +209,10 @@ def check_remove_takes_the_inner_groups_along(_work):
     assert {name: len(getattr(bpy.data, name)) for name in before} == before
 
 
-def check_without_lamps_it_is_dark(work):
+def check_without_lights_it_is_dark(work):
     skin()
     assert not pixels(work).any()
-    key = lamp(energy=40.0, location=(0.0, 0.0, 2.0))
+    key = add_light(energy=40.0, location=(0.0, 0.0, 2.0))
     assert not pixels(work).any(), "a lamp before the skin lights no far side"
     key.location.z = -2.0
     assert pixels(work)[:, :, 0].min() > 0.0

@@ -8,7 +8,7 @@ import skinglow_blender as sb
 from skinglow_blender import measuring_operators, thickness_attribute
 from skinglow_blender.measuring import Measuring
 
-from inside.scenes import assert_fresh, depsgraph, lamp
+from inside.scenes import add_light, assert_fresh, depsgraph
 
 sb.register()
 
@@ -65,7 +65,7 @@ def sb_update():
 
 
 def check_make(_work):
-    lamp("Key")
+    add_light("Key")
     ball()
 
     def before():
@@ -80,7 +80,7 @@ def check_make(_work):
 
 
 def check_remove(_work):
-    lamp("Key")
+    add_light("Key")
     skin_ball()
 
     def before():
@@ -94,7 +94,7 @@ def check_remove(_work):
 
 
 def check_reset(_work):
-    lamp("Key")
+    add_light("Key")
     skin_ball().skinglow.blood_weight = (9.0, 9.0, 9.0)
 
     def before():
@@ -109,7 +109,7 @@ def check_reset(_work):
 
 
 def check_bake(_work):
-    lamp("Key")
+    add_light("Key")
     obj = skin_ball()
     thickness_attribute.store(obj, [3.0] * len(obj.data.vertices), unit_mm=1000.0)
 
@@ -126,8 +126,8 @@ def check_bake(_work):
 
 
 def check_update(_work):
-    """Not live: the lamp's color reaches the skin by the button alone."""
-    key = lamp("Key")
+    """Not live: the light's color reaches the skin by the button alone."""
+    key = add_light("Key")
     obj = skin_ball()
     obj.skinglow.live = False
     depsgraph()
@@ -146,8 +146,8 @@ def check_update(_work):
 
 
 def check_select_light(_work):
-    lamp("Key")
-    lamp("Rim")
+    add_light("Key")
+    add_light("Rim")
     skin_ball()
 
     def selected(*names):

@@ -1,10 +1,10 @@
-"""The random walk's edits of lamps, collections, instances and frames, by name."""
+"""The random walk's edits of lights, collections, instances and frames, by name."""
 
 import random
 
 import bpy
 
-from inside.scenes import lamp, link, render_settings
+from inside.scenes import add_light, link, render_settings
 
 EARLY = bpy.app.version < (4, 0, 0)
 
@@ -21,7 +21,7 @@ class SceneEdits:
     def objects(self, kind):
         return [o for o in bpy.context.scene.objects if o.type == kind]
 
-    def lamps(self):
+    def lights(self):
         """Those of this file: what belongs to a library is edited there."""
         return [o for o in bpy.data.objects if o.type == "LIGHT" and not o.library and not o.data.library]
 
@@ -46,85 +46,85 @@ class SceneEdits:
     def collection(self):
         return self.pick([bpy.context.scene.collection, bpy.data.collections["Rig"], bpy.data.collections["Store"]])
 
-    # Edits of lamps.
-    def add_lamp(self):
-        if len(self.lamps()) < 24:
+    # Edits of lights.
+    def new_light(self):
+        if len(self.lights()) < 24:
             kind = self.random.choice(("POINT", "SUN", "SPOT", "AREA"))
-            lamp("Lamp", kind, self.color(), self.random.uniform(0.1, 50), self.place(), self.collection())
+            add_light("Lamp", kind, self.color(), self.random.uniform(0.1, 50), self.place(), self.collection())
 
-    def delete_lamp(self):
-        obj = self.pick(self.lamps())
+    def delete_light(self):
+        obj = self.pick(self.lights())
         if obj is not None:
             bpy.data.objects.remove(obj)
 
-    def duplicate_lamp(self):
-        obj = self.pick(self.lamps())
-        if obj is not None and len(self.lamps()) < 24:
+    def duplicate_light(self):
+        obj = self.pick(self.lights())
+        if obj is not None and len(self.lights()) < 24:
             copy = link(obj.copy(), self.collection())
             copy.location = self.place()
             if self.random.random() < 0.5:
                 copy.data = copy.data.copy()
 
-    def rename_lamp(self):
-        obj = self.pick(self.lamps())
+    def rename_light(self):
+        obj = self.pick(self.lights())
         if obj is not None:
             obj.name = self.random.choice(("Lamp", "Key", "Patch", "Lamp.001"))
 
     def recolor(self):
-        obj = self.pick(self.lamps())
+        obj = self.pick(self.lights())
         if obj is not None:
             obj.data.color = self.color()
 
     def power(self):
-        obj = self.pick(self.lamps())
+        obj = self.pick(self.lights())
         if obj is not None:
             obj.data.energy = self.random.choice((0.0, 1.0, 100.0))
 
     def kind(self):
-        obj = self.pick(self.lamps())
+        obj = self.pick(self.lights())
         if obj is not None:
             obj.data.type = self.random.choice(("POINT", "SUN", "SPOT", "AREA"))
 
-    def move_lamp(self):
-        obj = self.pick(self.lamps())
+    def move_light(self):
+        obj = self.pick(self.lights())
         if obj is not None:
             obj.location = self.place()
 
-    def hide_lamp(self):
-        obj = self.pick(self.lamps())
+    def hide_light(self):
+        obj = self.pick(self.lights())
         if obj is not None:
             obj.hide_viewport = not obj.hide_viewport
 
-    def hide_lamp_in_renders(self):
-        obj = self.pick(self.lamps())
+    def hide_light_in_renders(self):
+        obj = self.pick(self.lights())
         if obj is not None:
             obj.hide_render = not obj.hide_render
 
     def hide_with_h(self):
-        obj = self.pick([o for o in self.lamps() if o.name in bpy.context.view_layer.objects])
+        obj = self.pick([o for o in self.lights() if o.name in bpy.context.view_layer.objects])
         if obj is not None:
             obj.hide_set(not obj.hide_get())
 
     def parent(self):
-        obj, holder = self.pick(self.lamps()), self.pick(self.objects("EMPTY") + self.skins())
+        obj, holder = self.pick(self.lights()), self.pick(self.objects("EMPTY") + self.skins())
         if obj is not None:
             obj.parent = None if self.random.random() < 0.3 else holder
 
     def constrain(self):
-        obj, target = self.pick(self.lamps()), self.pick(self.objects("EMPTY"))
+        obj, target = self.pick(self.lights()), self.pick(self.objects("EMPTY"))
         if obj is not None:
             obj.constraints.clear()
             if target is not None and self.random.random() < 0.7:
                 obj.constraints.new("COPY_LOCATION").target = target
 
     def key(self):
-        obj = self.pick(self.lamps())
+        obj = self.pick(self.lights())
         if obj is not None:
             obj.keyframe_insert("location")
             obj.data.keyframe_insert("color")
 
     def drive(self):
-        obj = self.pick(self.lamps())
+        obj = self.pick(self.lights())
         if obj is not None:
             obj.data.driver_remove("energy")
             obj.data.driver_add("energy").driver.expression = self.random.choice(("frame - 3", "0", "frame * 2"))

@@ -5,7 +5,7 @@ import numpy as np
 import skinglow_blender as sb
 from mathutils import Color
 
-from inside.scenes import black_material, camera_above, depsgraph, lamp, patch, read_exr, render_settings, table_1
+from inside.scenes import add_light, black_material, camera_above, depsgraph, patch, read_exr, render_settings, table_1
 
 #: Blender rounds the colors that it converts to five digits.
 ROUNDED = 5e-5
@@ -58,7 +58,7 @@ def check_lookup_is_the_same(work):
             expected = [Color(c).from_rec709_linear_to_scene_linear()[:] for c in after.tolist()]
             np.testing.assert_allclose(pixels, expected, rtol=1e-5, atol=1e-6 * before.max())
             assert np.abs(pixels - after).max() > 0.02 * before.max()
-            # And it follows its lamps there.
+            # And it follows its lights there.
             bpy.data.lights["Light1"].color = (0.3, 0.3, 0.8)
             moved = sb.lut(obj, depsgraph())
             assert np.abs(moved - after).max() > 0.01 * before.max()
@@ -68,16 +68,16 @@ def check_lookup_is_the_same(work):
 
 
 def check_picture_is_the_same(work):
-    """Cycles' pictures, converted to Rec.709; a file loaded in its space; a lamp's temperature, its nodes, its color.
+    """Cycles' pictures, converted to Rec.709; a file loaded in its space; a light's temperature, its nodes, its color.
 
     Each by itself: Blender multiplies them channel by channel, and what comes of that depends on the space.
     """
     for space in spaces():
         bpy.ops.wm.read_factory_settings(use_empty=True)
-        lamp("Color", color=(1.0, 0.3, 0.1))
-        key = lamp("Key")
+        add_light("Color", color=(1.0, 0.3, 0.1))
+        key = add_light("Key")
         key.data.use_temperature, key.data.temperature = True, 4000.0
-        fill = lamp("Fill", location=(1.0, 0.0, 1.0))
+        fill = add_light("Fill", location=(1.0, 0.0, 1.0))
         if fill.data.node_tree is None:
             fill.data.use_nodes = True  # 5.0
         fill.data.node_tree.nodes.clear()
@@ -104,10 +104,10 @@ def check_picture_is_the_same(work):
 
 
 def check_colors_beyond_rec709_are_told(work):
-    """A lamp more saturated than Rec.709 gives its share of what Rec.709 holds, and the report says so."""
+    """A light more saturated than Rec.709 gives its share of what Rec.709 holds, and the report says so."""
     for space in spaces():
         bpy.ops.wm.read_factory_settings(use_empty=True)
-        lamp("Key", color=(0.2, 0.4, 0.3))
+        add_light("Key", color=(0.2, 0.4, 0.3))
         skin("paper")
         work_in(space, work)
         obj = bpy.data.objects["Patch"]

@@ -9,12 +9,12 @@ import skinglow_blender as sb
 
 from inside.scenes import (
     BLOOD,
+    add_light,
     assert_shows,
     black_material,
     camera_above,
     depsgraph,
     gray,
-    lamp,
     patch,
     render_settings,
 )
@@ -90,9 +90,9 @@ def check_follows_values_and_nodes(_work):
     assert_lit_by(obj, (0.0, 0.0, 0.0))
 
 
-def check_adds_to_the_lamps(_work):
+def check_adds_to_the_lights(_work):
     obj = skin()
-    lamp(kind="SUN", energy=2.0).data.angle = 0.0
+    add_light(kind="SUN", energy=2.0).data.angle = 0.0
     constant_world((0.25, 0.5, 0.75))
     assert_shows(obj, table(2.0 + math.pi * np.array((0.25, 0.5, 0.75))), ulps=4)
 
@@ -154,7 +154,7 @@ def check_pixels_are_read_once(work):
         tree, light, texture = image_world(bpy.data.images.load(str(path)))
         depsgraph()
         assert reads.count == 1
-        key = lamp()
+        key = add_light()
         for i in range(5):
             light.inputs["Strength"].default_value = 1.0 + i
             depsgraph()
@@ -186,7 +186,7 @@ def check_nothing_is_computed_where_nothing_changed(_work):
 
 
 def check_paper_and_existing_know_no_world(_work):
-    key = lamp()
+    key = add_light()
     obj = skin("paper")
     lit = sb.lut(obj, depsgraph())
     constant_world((5.0, 5.0, 5.0))
@@ -202,7 +202,7 @@ def check_paper_and_existing_know_no_world(_work):
 
 def check_report(_work):
     obj = skin()
-    lamp("Key", kind="SUN", energy=math.pi).data.angle = 0.0
+    add_light("Key", kind="SUN", energy=math.pi).data.angle = 0.0
     node = constant_world((0.5, 1.0, 1.5))
     key, world = sb.light_report(obj, depsgraph())
     assert set(key) == set(world)

@@ -81,7 +81,7 @@ def steps():
     yield from the_list()
     yield from a_cancelled_measuring()
     yield from a_measuring_to_its_end()
-    yield from a_moved_lamp()
+    yield from a_moved_light()
     yield from every_part_of_the_panel()
     with in_view():
         save_picture(picture)
@@ -158,7 +158,7 @@ def a_measuring_to_its_end():
     tell("measuring undone and redone", True)
 
 
-def a_moved_lamp():
+def a_moved_light():
     table = shown()
     bpy.data.objects["Rim red"].location.x = -1.0
     yield from wait_for(lambda: not np.array_equal(shown(), table), PATIENCE, "the moved lamp")
@@ -186,8 +186,8 @@ def every_part_of_the_panel():
         lists[0].active = i
         redraw()
         yield 0.3
-    lamp = bpy.data.objects["Rim red"]
-    bpy.context.view_layer.objects.active = lamp
+    light = bpy.data.objects["Rim red"]
+    bpy.context.view_layer.objects.active = light
     redraw()
     yield 0.5
     bpy.context.view_layer.objects.active = head()

@@ -1,4 +1,4 @@
-"""How far the RGB routes are off for colored lamps, against the lamp's whole spectrum sent through the skin."""
+"""Errors of RGB transport for colored lights, compared with transporting the full spectrum through the skin."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import skinglow as sg
 THICKNESS_MM = (1.0, 3.0, 6.0)
 
 # LEDs as Gaussian lines of usual center and full width at half maximum; low-pressure sodium as its doublet at 589.3 nm.
-LAMPS = {
+LIGHTS = {
     "red LED (630 nm, FWHM 20 nm)": sg.line_spectrum(630.0, 20.0),
     "green LED (525 nm, FWHM 35 nm)": sg.line_spectrum(525.0, 35.0),
     "blue LED (455 nm, FWHM 20 nm)": sg.line_spectrum(455.0, 20.0),
@@ -21,10 +21,10 @@ LAMPS = {
 
 
 @dataclass
-class LampError:
-    """Errors of the two RGB routes: largest channel difference over the largest channel of the full answer."""
+class LightColorError:
+    """Errors of the two RGB methods: max channel difference relative to the max channel of the full spectral result."""
 
-    lamp: str
+    light: str
     thickness_mm: float
     diagonal: float
     matrix: float
@@ -35,22 +35,22 @@ def _error(found: np.ndarray, exact: np.ndarray) -> float:
     return float(np.max(np.abs(found - exact)) / np.max(np.abs(exact)))
 
 
-def lamp_errors(tissue: sg.Tissue, streams: int = 32) -> list[LampError]:
-    """Each lamp at each thickness.
+def light_color_errors(tissue: sg.Tissue, streams: int = 32) -> list[LightColorError]:
+    """Each light at each thickness.
 
-    `diagonal`: the color of white light behind the skin times the lamp's color, channel by channel, as a fixed lookup
-    does. `matrix`: M(d) times the lamp's color. Both with the lamp's exact color, which may lie outside the gamut;
-    `clipped_matrix`: M(d) with negative channels set to 0, as hosts hold lamp colors.
+    `diagonal`: the color of white light behind the skin times the light's color, channel by channel, as a fixed lookup
+    does. `matrix`: M(d) times the light's color. Both with the light's exact color, which may lie outside the gamut;
+    `clipped_matrix`: M(d) with negative channels set to 0, as host applications store light colors.
     """
     through = sg.transmittance(tissue, THICKNESS_MM, sg.SAMPLE_WAVELENGTHS_NM, streams=streams)
     errors = []
-    for name, spectrum in LAMPS.items():
+    for name, spectrum in LIGHTS.items():
         color = sg.spectral_color(spectrum)
         for thickness, filter_ in zip(THICKNESS_MM, through, strict=True):
             exact = sg.spectral_color(spectrum, filter_)
             matrix = sg.transmission_matrix(filter_)
             errors.append(
-                LampError(
+                LightColorError(
                     name,
                     thickness,
                     _error((matrix @ np.ones(3)) * color, exact),
