@@ -153,7 +153,7 @@ def main() -> None:
     say("presets")
     plots.presets(IMAGES / "accuracy_presets.png")
     sections = {
-        "machine": f"Measured with skinglow {sg.__version__} on {platform.machine()}, one thread unless stated, from Python.",
+        "machine": f"Measured with skinglow {sg.__version__} on {platform.machine()}, one thread unless stated.",
         "light_colors": light_colors_section(),
         "methods": methods_section(),
         "solver": solver_section(),
