@@ -1,5 +1,7 @@
 #pragma once
 
+#include <skinglow/lut.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -12,8 +14,6 @@
 
 #include "light/light.h"
 #include "light/light_weights.h"
-#include "skin/base_lut.h"
-#include "skin/recolor.h"
 
 /// What a POV-Ray scene is written from, in plain numbers: world coordinates as Blender has them
 /// (right-handed, z up), one unit of length a meter for the lamps, radians, linear Rec.709.
@@ -66,12 +66,6 @@ void set_orthographic(PovrayCamera& camera, double width, const glm::dvec2& shif
 /// the entry, where a matrix is not a multiple of the identity.
 std::vector<double> gray_entries(const BaseLut& base);
 
-enum class LutMode { existing, paper, physical };
-
-/// "existing", "paper" or "physical"; lut_mode throws std::invalid_argument on any other.
-std::string_view to_text(LutMode mode);
-LutMode lut_mode(std::string_view name);
-
 /// Where the glow takes its colors from.
 enum class PovrayGlow {
     image,  ///< the float EXR `image`, one row; POV-Ray 3.7 reads it as half floats (11 bits)
@@ -80,7 +74,7 @@ enum class PovrayGlow {
 
 struct PovrayLut {
     LutMode mode = LutMode::paper;
-    LutAxis axis{256, 12.0};
+    LutAxis axis{default_lut_size, default_max_thickness_mm};
     PovrayGlow glow = PovrayGlow::macros;
     std::string image;  ///< of PovrayGlow::image: EXR in the scene's folder, name without a folder
     std::vector<double>
