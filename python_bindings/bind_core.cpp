@@ -1,5 +1,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <skinglow/lut.h>
 
 #include <string>
 #include <vector>
@@ -7,9 +8,6 @@
 #include "light/light_weights.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
-#include "skin/base_lut.h"
-#include "skin/fixed_lookup.h"
-#include "skin/recolor.h"
 
 namespace py = pybind11;
 using namespace py::literals;

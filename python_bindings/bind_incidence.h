@@ -1,11 +1,11 @@
 #pragma once
 
 #include <pybind11/pybind11.h>
+#include <skinglow/slab.h>
 
 #include <string>
 
 #include "numerics/argument_check.h"
-#include "slab/slab_solver.h"
 
 namespace skinglow {
 

@@ -1,5 +1,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <skinglow/slab.h>
 
 #include <cstddef>
 #include <string>
@@ -9,8 +10,6 @@
 #include "bind_incidence.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
-#include "slab/slab_solver.h"
-#include "slab/thickness_curve.h"
 
 namespace py = pybind11;
 using namespace py::literals;

@@ -1,11 +1,11 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <skinglow/spectrum.h>
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
-#include "color/spectrum.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
 

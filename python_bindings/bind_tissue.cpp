@@ -1,18 +1,16 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <skinglow/lut.h>
+#include <skinglow/spectrum.h>
+#include <skinglow/tissue.h>
 
 #include <string>
 #include <utility>
 
 #include "bind_incidence.h"
-#include "color/spectrum.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
 #include "skin/diffusion_approximation.h"
-#include "skin/skin_angular_weight.h"
-#include "skin/skin_lut.h"
-#include "skin/skin_transmittance.h"
-#include "skin/tissue.h"
 
 namespace py = pybind11;
 using namespace py::literals;

@@ -1,11 +1,9 @@
 // Recoloring a table, beside copying the bytes it writes: the least that any way of filling the table costs.
 #include <benchmark/benchmark.h>
+#include <skinglow/lut.h>
 
 #include <cstring>
 #include <vector>
-
-#include "skin/fixed_lookup.h"
-#include "skin/recolor.h"
 
 namespace {
 

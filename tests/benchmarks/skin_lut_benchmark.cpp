@@ -1,10 +1,10 @@
 #include <benchmark/benchmark.h>
+#include <skinglow/lut.h>
+#include <skinglow/tissue.h>
 
 #include <vector>
 
 #include "skin/diffusion_approximation.h"
-#include "skin/skin_lut.h"
-#include "skin/skin_transmittance.h"
 
 namespace {
 

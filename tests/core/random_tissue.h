@@ -1,8 +1,8 @@
 #pragma once
 
-#include <random>
+#include <skinglow/tissue.h>
 
-#include "skin/tissue.h"
+#include <random>
 
 namespace skinglow {
 

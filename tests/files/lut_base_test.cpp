@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
+#include <skinglow/lut.h>
 
 #include "files/lut_file.h"
 #include "rig_files/file_error.h"
 #include "scratch_folder.h"
-#include "skin/fixed_lookup.h"
 #include "test_image.h"
 
 namespace skinglow::test {

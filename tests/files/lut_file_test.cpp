@@ -21,7 +21,7 @@ LutTable make_table(std::size_t size = 5) {
         table.colors.emplace_back(2.8 * std::exp(-t), 0.1 + t / 3.0, 1e-12 * t);
     }
     table.record.max_thickness_mm = 7.3;
-    table.record.mode = "paper";
+    table.record.mode = LutMode::paper;
     table.record.light_weight = glm::dvec3(1.0 / 3.0, 0.87, 1e-300);
     table.record.blood_weight = glm::dvec3(1.8, 0.5, 0.4);
     table.record.coefficients = AttenuationCoefficients{1.0, 0.1, 0.7};

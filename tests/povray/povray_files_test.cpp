@@ -1,6 +1,7 @@
 #include <skinglow/povray.h>
 
 #include <gtest/gtest.h>
+#include <skinglow/lut.h>
 
 #include <fstream>
 #include <limits>
@@ -10,7 +11,6 @@
 #include <stdexcept>
 
 #include "povray/sdl_text.h"
-#include "skin/fixed_lookup.h"
 #include "table1.h"
 
 using namespace skinglow;

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
+#include <skinglow/lut.h>
 #include <skinglow/mesh.h>
 #include <string>
 #include <string_view>
@@ -14,8 +15,6 @@
 
 #include "light/light.h"
 #include "light/light_weights.h"
-#include "skin/base_lut.h"
-#include "skin/recolor.h"
 
 /// POV-Ray scenes of glowing skin, as text: world coordinates as Blender has them (right-handed, z up), one unit of
 /// length a meter for the lights, radians, linear Rec.709.
@@ -82,12 +81,6 @@ void set_orthographic(PovrayCamera& camera, double width, const glm::dvec2& shif
 /// @throws std::invalid_argument naming the entry where a matrix is not a multiple of the identity
 std::vector<double> gray_entries(const BaseLut& base);
 
-enum class LutMode { existing, paper, physical };
-
-/// "existing", "paper" or "physical"; lut_mode throws std::invalid_argument on any other.
-std::string_view to_text(LutMode mode);
-LutMode lut_mode(std::string_view name);
-
 /// Where the glow takes its colors from.
 enum class PovrayGlow {
     image,  ///< the float EXR `image`, one row; POV-Ray 3.7 reads it as half floats (11 bits)
@@ -96,7 +89,7 @@ enum class PovrayGlow {
 
 struct PovrayLut {
     LutMode mode = LutMode::paper;
-    LutAxis axis{256, 12.0};
+    LutAxis axis{default_lut_size, default_max_thickness_mm};
     PovrayGlow glow = PovrayGlow::macros;
     std::string image;  ///< of PovrayGlow::image: EXR in the scene's folder, name without a folder
     std::vector<double> base;  ///< mode paper by macros: the gray base lookup, axis.size() entries, 0 or more

@@ -1,3 +1,5 @@
+#include <skinglow/lut.h>
+
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -11,8 +13,6 @@
 #include "files/lut_preview.h"
 #include "numerics/argument_check.h"
 #include "rig/irradiance.h"
-#include "skin/fixed_lookup.h"
-#include "skin/recolor.h"
 
 namespace skinglow::cli {
 namespace {
@@ -51,14 +51,14 @@ LutTable paper_table(const Options& options) {
     return table;
 }
 
-/// The light that leaves the skin, M(d) E; without lights that of a white lamp that brings 1 W/m^2.
+/// The light that leaves the skin, M(d) E; without lights that of a white light that brings 1 W/m^2.
 LutTable physical_table(const Options& options) {
     if (options.table.has_base()) {
         throw std::invalid_argument("--mode physical makes its base from the skin: leave out --base");
     }
     const LutAxis axis = options.table.built_in_axis();
-    const SkinLut skin =
-        skin_lut(options.skin.tissue(), axis.size(), axis.max_thickness_mm(), options.skin.tolerance());
+    const SkinLut skin = base_lut_report(options.skin.tissue(), axis.size(), axis.max_thickness_mm(),
+                                         options.skin.tolerance());
     glm::dvec3 irradiance(1.0);
     if (options.rig.given()) {
         const LightRig rig = options.rig.read();
@@ -69,29 +69,28 @@ LutTable physical_table(const Options& options) {
     LutTable table{recolor(skin.lut, irradiance), {}};
     table.record.max_thickness_mm = axis.max_thickness_mm();
     table.record.light_weight = irradiance;
-    std::cout << "skin solved at " << skin.report.wavelengths_nm.size() << " wavelengths and "
-              << skin.report.thickness_nodes_mm.size() << " thicknesses with " << skin.report.streams
-              << " streams, error at most " << short_number(skin.report.estimated_error) << "; E "
-              << to_text(irradiance) << " W/m^2; radiance is the table over pi\n";
+    std::cout << "skin solved with " << skin.report.streams << " streams, error at most "
+              << short_number(skin.report.estimated_error) << "; E " << to_text(irradiance)
+              << " W/m^2; radiance is the table over pi\n";
     return table;
 }
 
 /// What --mode says; the options of skin alone say physical.
-std::string chosen_mode(const Options& options) {
+LutMode chosen_mode(const Options& options) {
     if (!options.skin.any_used()) return options.table.mode();
-    if (options.table.has_mode() && options.table.mode() != "physical") {
+    if (options.table.has_mode() && options.table.mode() != LutMode::physical) {
         throw std::invalid_argument("--skin and its options belong to --mode physical");
     }
-    return "physical";
+    return LutMode::physical;
 }
 
-LutTable make_table(const Options& options, const std::string& mode) {
-    if (mode == "existing") return existing_table(options);
-    return mode == "physical" ? physical_table(options) : paper_table(options);
+LutTable make_table(const Options& options, LutMode mode) {
+    if (mode == LutMode::existing) return existing_table(options);
+    return mode == LutMode::physical ? physical_table(options) : paper_table(options);
 }
 
 void run(const Options& options) {
-    const std::string mode = chosen_mode(options);
+    const LutMode mode = chosen_mode(options);
     LutTable table = make_table(options, mode);
     table.record.mode = mode;
     const PngOptions png{options.bits, options.encoding == "linear" ? Encoding::linear : Encoding::srgb};
@@ -101,7 +100,7 @@ void run(const Options& options) {
                                  std::to_string(table.colors.size()) +
                                  " texels were clamped to 0..1; .exr and .csv keep them");
     }
-    std::cout << options.output << ": mode " << table.record.mode << ", " << table.colors.size()
+    std::cout << options.output << ": mode " << to_text(mode) << ", " << table.colors.size()
               << " texels, 0 to " << to_text(table.record.max_thickness_mm) << " mm, "
               << to_text(table.colors.front()) << " at 0 mm\n";
     if (!options.preview.empty()) {

@@ -75,7 +75,7 @@ PovrayLut use_table(const Options& options, const std::filesystem::path& folder)
     lut.axis = LutAxis(file.table.colors.size(), file.table.record.max_thickness_mm);
     lut.glow = PovrayGlow::image;
     lut.image = "lut.exr";
-    if (!file.table.record.mode.empty()) lut.mode = lut_mode(file.table.record.mode);
+    if (file.table.record.mode) lut.mode = *file.table.record.mode;
     write_lut(folder / lut.image, file.table);
     return lut;
 }
@@ -83,7 +83,7 @@ PovrayLut use_table(const Options& options, const std::filesystem::path& folder)
 /// The glow that the macros compute for themselves from the base and the lamps.
 PovrayLut compute_table(const Options& options) {
     PovrayLut lut;
-    lut.mode = lut_mode(options.table.mode());
+    lut.mode = options.table.mode();
     if (lut.mode == LutMode::existing) {
         if (options.table.has_base())
             throw std::invalid_argument("--mode existing has a fixed table: leave out --base");

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <skinglow/lut.h>
+
 #include <CLI/CLI.hpp>
 #include <map>
 #include <string>
-
-#include "skin/skin_lut.h"
 
 namespace skinglow::cli {
 
@@ -24,7 +24,7 @@ class SkinOptions {
     std::string preset_ = "light";
     std::map<std::string_view, double> values_;
     std::map<std::string_view, CLI::Option*> options_;
-    double tolerance_ = 1e-3;
+    double tolerance_ = default_lut_tolerance;
     CLI::Option* preset_option_ = nullptr;
     CLI::Option* tolerance_option_ = nullptr;
 };

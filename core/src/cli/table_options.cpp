@@ -1,11 +1,12 @@
 #include "cli/table_options.h"
 
+#include <skinglow/lut.h>
+
 #include <optional>
 #include <set>
 #include <stdexcept>
 
 #include "cli/output_text.h"
-#include "skin/fixed_lookup.h"
 
 namespace skinglow::cli {
 

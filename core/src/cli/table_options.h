@@ -14,7 +14,7 @@ class TableOptions {
     /// Adds --mode, --base, --size and --max-thickness. @param with_skin  mode physical is one to choose
     void add_to(CLI::App& command, bool with_skin = false);
 
-    const std::string& mode() const { return mode_; }
+    LutMode mode() const { return lut_mode(mode_); }
     bool has_mode() const { return mode_option_->count() > 0; }
     bool has_base() const { return !base_.empty(); }
     /// True where one of the options was used.
@@ -26,9 +26,9 @@ class TableOptions {
     BaseLut read_base() const;
 
   private:
-    std::string mode_ = "paper";
+    std::string mode_{to_text(LutMode::paper)};
     std::string base_;
-    std::size_t size_ = 256;
+    std::size_t size_ = default_lut_size;
     double max_thickness_mm_ = default_max_thickness_mm;
     CLI::Option* mode_option_ = nullptr;
     CLI::Option* size_option_ = nullptr;

@@ -1,3 +1,5 @@
+#include <skinglow/spectrum.h>
+
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -5,7 +7,6 @@
 #include "cli/commands.h"
 #include "cli/output_text.h"
 #include "cli/rig_options.h"
-#include "color/luminance.h"
 #include "numerics/argument_check.h"
 
 namespace skinglow::cli {

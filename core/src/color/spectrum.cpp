@@ -1,4 +1,4 @@
-#include "color/spectrum.h"
+#include <skinglow/spectrum.h>
 
 #include <algorithm>
 #include <cmath>
@@ -70,10 +70,14 @@ const std::array<glm::dvec3, spectral_samples>& sample_colors() {
     return colors;
 }
 
+auto sample_name(const char* quantity, std::size_t k) {
+    return [=] { return std::string(quantity) + " at " + to_text(sample_wavelength_nm(k)) + " nm"; };
+}
+
 double luminance_of(const Spectrum& spectrum) {
     double luminance = 0.0;
     for (std::size_t k = 0; k < spectral_samples; ++k) {
-        require_finite("power at " + to_text(sample_wavelength_nm(k)) + " nm", spectrum[k]);
+        require_finite(sample_name("power", k), spectrum[k]);
         luminance += spectrum[k] * color_matching(k).y;
     }
     if (!(luminance > 0.0 && std::isfinite(luminance))) {
@@ -82,26 +86,39 @@ double luminance_of(const Spectrum& spectrum) {
     return luminance;
 }
 
-/// Of colors whose D65 is (1,1,1), the factor that makes luminance 1 of a lamp of this luminance sum.
+/// Of colors whose D65 is (1,1,1), the factor that scales a light of this luminance sum to luminance 1.
 double scale_to_unit_luminance(double luminance) {
     static const double white = tristimulus(d65_spectrum()).y;
     return white / luminance;
 }
 
-/// Shares the power of one straight piece from (x0, p0) to (x1, p1), inside one interval of the grid, between
-/// its ends.
-void share_piece(double x0, double p0, double x1, double p1, Spectrum& out) {
-    const double middle = 0.5 * (x0 + x1);
-    const double place = (middle - first_sample_nm) / sample_step_nm;
-    if (!(place >= 0.0 && place <= static_cast<double>(spectral_samples - 1))) return;
-    const auto k = std::min(static_cast<std::size_t>(place), spectral_samples - 2);
-    // Simpson's rule is exact for a straight power times a straight share.
-    const auto share = [&](double x) { return (x - sample_wavelength_nm(k)) / sample_step_nm; };
+/// Divides the power of one linear piece from (x0, p0) to (x1, p1), inside one interval of the grid, between
+/// the interval's ends.
+void add_piece(double x0, double p0, double x1, double p1, Spectrum& out) {
+    const double center = 0.5 * (x0 + x1);
+    const double sample = (center - first_sample_nm) / sample_step_nm;
+    if (!(sample >= 0.0 && sample <= static_cast<double>(spectral_samples - 1))) return;
+    const auto k = std::min(static_cast<std::size_t>(sample), spectral_samples - 2);
+    // Simpson's rule is exact for a linear power times a linear weight.
+    const auto weight = [&](double x) { return (x - sample_wavelength_nm(k)) / sample_step_nm; };
     const double power = 0.5 * (p0 + p1);
-    const double right = (p0 * share(x0) + 4.0 * power * share(middle) + p1 * share(x1)) / 6.0;
+    const double right = (p0 * weight(x0) + 4.0 * power * weight(center) + p1 * weight(x1)) / 6.0;
     const double per_sample = (x1 - x0) / sample_step_nm;
     out[k] += per_sample * (power - right);
     out[k + 1] += per_sample * right;
+}
+
+/// The matrix that each sample adds per transmittance: color of the sample (rows) times what D65 times each
+/// basis spectrum brings there (columns).
+const std::array<glm::dmat3, spectral_samples>& matrix_weights() {
+    static const auto weights = [] {
+        std::array<glm::dmat3, spectral_samples> result{};
+        for (std::size_t k = 0; k < spectral_samples; ++k) {
+            result[k] = glm::outerProduct(sample_colors()[k], d65_spectrum()[k] * basis(k));
+        }
+        return result;
+    }();
+    return weights;
 }
 
 }  // namespace
@@ -146,10 +163,10 @@ Spectrum line_spectrum(double center_nm, double fwhm_nm) {
     if (!(fwhm_nm > 0.0 && fwhm_nm <= 400.0))
         refuse_argument("fwhm_nm", to_text(fwhm_nm), "above 0 and at most 400 nm");
     constexpr int pieces_per_fwhm = 32;
-    constexpr int reach = 3;  // widths either side: what is left out is 2e-12 of the line
+    constexpr int extent = 3;  // widths either side: what is left out is 2e-12 of the line
     std::vector<double> nm;
     std::vector<double> power;
-    for (int i = -reach * pieces_per_fwhm; i <= reach * pieces_per_fwhm; ++i) {
+    for (int i = -extent * pieces_per_fwhm; i <= extent * pieces_per_fwhm; ++i) {
         const double widths = static_cast<double>(i) / pieces_per_fwhm;
         nm.push_back(center_nm + fwhm_nm * widths);
         power.push_back(std::exp2(-4.0 * widths * widths) / fwhm_nm);
@@ -169,12 +186,10 @@ Spectrum tabulated_spectrum(std::span<const double> wavelength_nm, std::span<con
                         "two or more wavelengths and as many powers");
     }
     for (std::size_t i = 0; i < power.size(); ++i) {
-        const std::string where = std::string("[").append(std::to_string(i)).append("]");
-        require_finite("wavelength_nm" + where, wavelength_nm[i]);
-        require_not_negative("power" + where, power[i]);
+        require_finite(entry_name("wavelength_nm", i), wavelength_nm[i]);
+        require_not_negative(entry_name("power", i), power[i]);
         if (i > 0 && !(wavelength_nm[i] > wavelength_nm[i - 1])) {
-            refuse_argument("wavelength_nm" + where, to_text(wavelength_nm[i]),
-                            "more than the one before it");
+            refuse_value(entry_name("wavelength_nm", i), wavelength_nm[i], "more than the one before it");
         }
     }
     Spectrum result{};
@@ -188,7 +203,7 @@ Spectrum tabulated_spectrum(std::span<const double> wavelength_nm, std::span<con
                 first_sample_nm +
                 sample_step_nm * (std::floor((from - first_sample_nm) / sample_step_nm) + 1.0);
             const double to = std::min(next, end);
-            share_piece(from, at(from), to, at(to), result);
+            add_piece(from, at(from), to, at(to), result);
             from = to;
         }
     }
@@ -208,27 +223,21 @@ glm::dvec3 spectral_color(const Spectrum& spectrum, const Spectrum& transmittanc
     const double scale = scale_to_unit_luminance(luminance_of(spectrum));
     glm::dvec3 color(0.0);
     for (std::size_t k = 0; k < spectral_samples; ++k) {
-        require_finite("transmittance at " + to_text(sample_wavelength_nm(k)) + " nm", transmittance[k]);
+        require_finite(sample_name("transmittance", k), transmittance[k]);
         color += spectrum[k] * transmittance[k] * scale * sample_colors()[k];
     }
     return require_finite("color of the spectrum", color);
 }
 
-const std::array<glm::dmat3, spectral_samples>& matrix_weights() {
-    static const auto weights = [] {
-        std::array<glm::dmat3, spectral_samples> result{};
-        for (std::size_t k = 0; k < spectral_samples; ++k) {
-            result[k] = glm::outerProduct(sample_colors()[k], d65_spectrum()[k] * basis(k));
-        }
-        return result;
-    }();
-    return weights;
+glm::dmat3 transmission_matrix(std::span<const double, spectral_samples> transmittance) {
+    glm::dmat3 matrix(0.0);
+    const auto& weights = matrix_weights();
+    for (std::size_t k = 0; k < spectral_samples; ++k) matrix += weights[k] * transmittance[k];
+    return matrix;
 }
 
-glm::dmat3 transmission_matrix(const Spectrum& transmittance) {
-    glm::dmat3 matrix(0.0);
-    for (std::size_t k = 0; k < spectral_samples; ++k) matrix += matrix_weights()[k] * transmittance[k];
-    return matrix;
+double luminance(const glm::dvec3& linear_rgb) {
+    return glm::dot(linear_rgb, glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
 }  // namespace skinglow

@@ -1,8 +1,9 @@
 #include "files/lut_file.h"
 
+#include <skinglow/spectrum.h>
+
 #include <algorithm>
 
-#include "color/luminance.h"
 #include "files/image_file.h"
 #include "files/lut_format.h"
 #include "numerics/argument_check.h"

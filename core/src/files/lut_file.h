@@ -1,5 +1,7 @@
 #pragma once
 
+#include <skinglow/lut.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <glm/vec3.hpp>
@@ -9,7 +11,6 @@
 
 #include "files/transfer_function.h"
 #include "light/light_weights.h"
-#include "skin/base_lut.h"
 
 /// Lookup tables as files. A table is an image one texel high; entry i is texel i (LutAxis). What the pixels
 /// do not say (the thickness axis in mm, how the table was made) is text in the header, keys "skinglow:...":
@@ -20,7 +21,7 @@ namespace skinglow {
 /// How a recolored table was made; what does not apply stays empty.
 struct LutRecord {
     double max_thickness_mm = 0.0;
-    std::string mode;                        ///< "existing", "paper" or "physical"
+    std::optional<LutMode> mode;
     std::optional<glm::dvec3> light_weight;  ///< L of Eq. 3; in mode physical the irradiance E, W/m^2
     std::optional<glm::dvec3> blood_weight;  ///< B of Eq. 1
     std::optional<AttenuationCoefficients> coefficients;  ///< of Eq. 2
@@ -78,8 +79,5 @@ BaseLutFile read_base_lut(const std::filesystem::path& path, std::optional<doubl
 /// Writes the matrices as a float32 EXR of nine channels M00 to M22: Mij takes channel j of the light on the
 /// far side to channel i of the light coming through. Throws FileError as write_lut does.
 void write_base_lut(const std::filesystem::path& path, const BaseLut& base);
-
-/// Where nothing says how thick the skin of a table's last entry is; also the default of the Python package.
-constexpr double default_max_thickness_mm = 12.0;
 
 }  // namespace skinglow

@@ -40,7 +40,7 @@ std::optional<glm::dvec3> find_three_numbers(const HeaderText& text, const std::
 
 HeaderText to_header_text(const LutRecord& record) {
     HeaderText text{{"skinglow:table", "recolored"}, {axis_key, to_text(record.max_thickness_mm)}};
-    if (!record.mode.empty()) text["skinglow:mode"] = record.mode;
+    if (record.mode) text["skinglow:mode"] = to_text(*record.mode);
     if (record.light_weight) text["skinglow:light_weight"] = three_numbers(*record.light_weight);
     if (record.blood_weight) text["skinglow:blood_weight"] = three_numbers(*record.blood_weight);
     if (const auto& k = record.coefficients) {
@@ -60,6 +60,20 @@ std::optional<double> axis_in(const HeaderText& text, const std::filesystem::pat
     return value;
 }
 
+namespace {
+
+std::optional<LutMode> mode_in(const HeaderText& text, const std::filesystem::path& path) {
+    const auto found = text.find("skinglow:mode");
+    if (found == text.end()) return std::nullopt;
+    try {
+        return lut_mode(found->second);
+    } catch (const std::invalid_argument& refusal) {
+        refuse_file(path, refusal.what(), foreign_remedy, "key skinglow:mode");
+    }
+}
+
+}  // namespace
+
 LutRecord to_lut_record(const HeaderText& text, const std::filesystem::path& path) {
     const auto axis = axis_in(text, path);
     if (!axis) {
@@ -69,7 +83,7 @@ LutRecord to_lut_record(const HeaderText& text, const std::filesystem::path& pat
     }
     LutRecord record;
     record.max_thickness_mm = *axis;
-    if (const auto mode = text.find("skinglow:mode"); mode != text.end()) record.mode = mode->second;
+    record.mode = mode_in(text, path);
     record.light_weight = find_three_numbers(text, "skinglow:light_weight", path);
     record.blood_weight = find_three_numbers(text, "skinglow:blood_weight", path);
     if (const auto k = find_three_numbers(text, "skinglow:coefficients", path)) {

@@ -1,10 +1,11 @@
 #include "light/light_units.h"
 
+#include <skinglow/spectrum.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "color/spectrum.h"
 #include "numerics/argument_check.h"
 
 namespace skinglow {

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <stdexcept>
 
 namespace skinglow::detail {
@@ -24,38 +23,6 @@ std::string to_text(double value) {
 
 std::string to_text(const glm::dvec3& value) {
     return "(" + to_text(value.x) + ", " + to_text(value.y) + ", " + to_text(value.z) + ")";
-}
-
-double require_finite(std::string_view name, double value) {
-    if (!std::isfinite(value)) refuse_argument(name, to_text(value), "a finite number");
-    return value;
-}
-
-double require_not_negative(std::string_view name, double value) {
-    if (!std::isfinite(value) || value < 0)
-        refuse_argument(name, to_text(value), "a finite number, 0 or more");
-    return value;
-}
-
-double require_positive(std::string_view name, double value) {
-    if (!std::isfinite(value) || value <= 0) refuse_argument(name, to_text(value), "a finite number above 0");
-    return value;
-}
-
-glm::dvec3 require_finite(std::string_view name, const glm::dvec3& value) {
-    for (int i = 0; i < 3; ++i) {
-        if (!std::isfinite(value[i])) refuse_argument(name, to_text(value), "three finite numbers");
-    }
-    return value;
-}
-
-glm::dvec3 require_not_negative(std::string_view name, const glm::dvec3& value) {
-    for (int i = 0; i < 3; ++i) {
-        if (!std::isfinite(value[i]) || value[i] < 0) {
-            refuse_argument(name, to_text(value), "three finite numbers, 0 or more");
-        }
-    }
-    return value;
 }
 
 }  // namespace skinglow::detail

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cmath>
+#include <concepts>
+#include <cstddef>
 #include <glm/vec3.hpp>
 #include <string>
 #include <string_view>
@@ -16,12 +19,57 @@ namespace skinglow::detail {
 std::string to_text(double value);
 std::string to_text(const glm::dvec3& value);
 
+/// What an argument is called: text, or a function that returns it. A name that has to be put together is
+/// given as a function, which is called only once the argument is refused: checks stand in inner loops.
+template <typename Name>
+concept ArgumentName = std::convertible_to<Name, std::string_view> || std::invocable<Name>;
+
+/// The name of entry i of an array, "name[i]".
+inline auto entry_name(std::string_view name, std::size_t i) {
+    return [=] { return std::string(name) + "[" + std::to_string(i) + "]"; };
+}
+
+template <ArgumentName Name, typename Value>
+[[noreturn]] void refuse_value(const Name& name, const Value& value, std::string_view allowed) {
+    if constexpr (std::invocable<Name>) {
+        refuse_argument(name(), to_text(value), allowed);
+    } else {
+        refuse_argument(name, to_text(value), allowed);
+    }
+}
+
 /// Each throws std::invalid_argument that names the argument, its value and what is allowed; else returns the
 /// value.
-double require_finite(std::string_view name, double value);
-double require_not_negative(std::string_view name, double value);
-double require_positive(std::string_view name, double value);
-glm::dvec3 require_finite(std::string_view name, const glm::dvec3& value);
-glm::dvec3 require_not_negative(std::string_view name, const glm::dvec3& value);
+template <ArgumentName Name>
+double require_finite(const Name& name, double value) {
+    if (!std::isfinite(value)) refuse_value(name, value, "a finite number");
+    return value;
+}
+template <ArgumentName Name>
+double require_not_negative(const Name& name, double value) {
+    if (!(std::isfinite(value) && value >= 0)) refuse_value(name, value, "a finite number, 0 or more");
+    return value;
+}
+template <ArgumentName Name>
+double require_positive(const Name& name, double value) {
+    if (!(std::isfinite(value) && value > 0)) refuse_value(name, value, "a finite number above 0");
+    return value;
+}
+
+inline bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+template <ArgumentName Name>
+glm::dvec3 require_finite(const Name& name, const glm::dvec3& value) {
+    if (!is_finite(value)) refuse_value(name, value, "three finite numbers");
+    return value;
+}
+template <ArgumentName Name>
+glm::dvec3 require_not_negative(const Name& name, const glm::dvec3& value) {
+    if (!(is_finite(value) && value.x >= 0 && value.y >= 0 && value.z >= 0)) {
+        refuse_value(name, value, "three finite numbers, 0 or more");
+    }
+    return value;
+}
 
 }  // namespace skinglow::detail

@@ -9,11 +9,6 @@
 namespace skinglow {
 namespace {
 
-using NamedMode = std::pair<LutMode, std::string_view>;
-constexpr std::array<NamedMode, 3> modes = {NamedMode{LutMode::existing, "existing"},
-                                            NamedMode{LutMode::paper, "paper"},
-                                            NamedMode{LutMode::physical, "physical"}};
-
 template <typename ValueAt>
 void add_array(SdlText& text, std::string_view name, std::size_t size, std::size_t per_line,
                ValueAt value_at) {
@@ -66,20 +61,6 @@ std::vector<double> gray_entries(const BaseLut& base) {
         gray.push_back(matrix[0][0]);
     }
     return gray;
-}
-
-std::string_view to_text(LutMode mode) {
-    for (const auto& [known, name] : modes) {
-        if (known == mode) return name;
-    }
-    refuse_argument("mode", std::to_string(static_cast<int>(mode)), "existing, paper or physical");
-}
-
-LutMode lut_mode(std::string_view name) {
-    for (const auto& [mode, known] : modes) {
-        if (known == name) return mode;
-    }
-    refuse_argument("mode", "\"" + std::string(name) + "\"", "existing, paper or physical");
 }
 
 namespace detail {

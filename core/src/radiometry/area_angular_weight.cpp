@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "numerics/gauss_legendre.h"
+#include "numerics/quadrature.h"
 
 namespace skinglow {
 namespace {
@@ -20,11 +20,11 @@ struct Part {
 
 template <std::size_t Across>
 std::vector<Part> rectangle_rule() {
-    const QuadratureRule<Across>& rule = gauss_legendre<Across>();
+    const Quadrature& rule = gauss_legendre<Across>();
     std::vector<Part> parts;
     for (std::size_t i = 0; i < Across; ++i) {
         for (std::size_t j = 0; j < Across; ++j) {
-            parts.push_back({rule.node[i], rule.node[j], 0.25 * rule.weight[i] * rule.weight[j]});
+            parts.push_back({2 * rule.node[i] - 1, 2 * rule.node[j] - 1, rule.weight[i] * rule.weight[j]});
         }
     }
     return parts;
@@ -33,14 +33,13 @@ std::vector<Part> rectangle_rule() {
 // Area grows with the radius squared, in which the rule is Gauss's.
 template <std::size_t Rings>
 std::vector<Part> ellipse_rule(int around) {
-    const QuadratureRule<Rings>& rule = gauss_legendre<Rings>();
+    const Quadrature& rule = gauss_legendre<Rings>();
     std::vector<Part> parts;
     for (std::size_t i = 0; i < Rings; ++i) {
-        const double radius = std::sqrt(0.5 * (1.0 + rule.node[i]));
+        const double radius = std::sqrt(rule.node[i]);
         for (int j = 0; j < around; ++j) {
             const double angle = 2.0 * std::numbers::pi * (j + 0.5) / around;
-            parts.push_back(
-                {radius * std::cos(angle), radius * std::sin(angle), 0.5 * rule.weight[i] / around});
+            parts.push_back({radius * std::cos(angle), radius * std::sin(angle), rule.weight[i] / around});
         }
     }
     return parts;

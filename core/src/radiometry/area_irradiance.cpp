@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "numerics/gauss_legendre.h"
+#include "numerics/quadrature.h"
 #include "radiometry/spread_integral.h"
 
 namespace skinglow {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "geometry/vector.h"
-#include "numerics/gauss_legendre.h"
+#include "numerics/quadrature.h"
 
 namespace skinglow {
 namespace {

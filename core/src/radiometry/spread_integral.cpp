@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "numerics/gauss_legendre.h"
+#include "numerics/quadrature.h"
 
 namespace skinglow {
 namespace {

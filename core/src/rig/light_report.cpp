@@ -1,10 +1,11 @@
 #include "rig/light_report.h"
 
+#include <skinglow/spectrum.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "color/luminance.h"
 #include "geometry/vector.h"
 #include "light/light_weights.h"
 #include "numerics/argument_check.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <skinglow/lut.h>
+
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <string>
@@ -7,7 +9,6 @@
 
 #include "light/light.h"
 #include "light/light_weights.h"
-#include "skin/recolor.h"
 
 namespace skinglow {
 

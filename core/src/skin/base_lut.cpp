@@ -1,12 +1,28 @@
-#include "skin/base_lut.h"
+#include <skinglow/lut.h>
 
-#include <cmath>
+#include <array>
 #include <string>
 #include <utility>
 
 #include "numerics/argument_check.h"
 
 namespace skinglow {
+namespace {
+
+constexpr std::array<std::string_view, 3> mode_names = {"existing", "paper", "physical"};
+
+}  // namespace
+
+std::string_view to_text(LutMode mode) {
+    return mode_names.at(static_cast<std::size_t>(mode));
+}
+
+LutMode lut_mode(std::string_view name) {
+    for (const LutMode mode : {LutMode::existing, LutMode::paper, LutMode::physical}) {
+        if (to_text(mode) == name) return mode;
+    }
+    refuse_argument("mode", "\"" + std::string(name) + "\"", "existing, paper or physical");
+}
 
 LutAxis::LutAxis(std::size_t size, double max_thickness_mm)
     : size_(size), max_thickness_mm_(require_positive("max_thickness_mm", max_thickness_mm)) {
@@ -38,7 +54,8 @@ BaseLut BaseLut::from_gray(std::span<const double> gray, double max_thickness_mm
     std::vector<glm::dmat3> matrices;
     matrices.reserve(gray.size());
     for (const double brightness : gray) {
-        require_not_negative("base lookup entry " + std::to_string(matrices.size()), brightness);
+        const std::size_t i = matrices.size();
+        require_not_negative([i] { return "base lookup entry " + std::to_string(i); }, brightness);
         matrices.emplace_back(brightness);  // GLM: a scalar is that multiple of the identity
     }
     return {std::move(matrices), max_thickness_mm};
@@ -48,8 +65,10 @@ BaseLut::BaseLut(std::vector<glm::dmat3> matrices, double max_thickness_mm)
     : axis_(matrices.size(), max_thickness_mm), matrices_(std::move(matrices)) {
     for (std::size_t i = 0; i < matrices_.size(); ++i) {
         for (int column = 0; column < 3; ++column) {
-            require_finite("column " + std::to_string(column) + " of base lookup matrix " + std::to_string(i),
-                           matrices_[i][column]);
+            const auto name = [i, column] {
+                return "column " + std::to_string(column) + " of base lookup matrix " + std::to_string(i);
+            };
+            require_finite(name, matrices_[i][column]);
         }
     }
 }

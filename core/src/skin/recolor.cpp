@@ -1,4 +1,4 @@
-#include "skin/recolor.h"
+#include <skinglow/lut.h>
 
 #include <string>
 

@@ -1,9 +1,9 @@
-#include "skin/skin_angular_weight.h"
+#include <skinglow/tissue.h>
 
 #include <vector>
 
 #include "numerics/argument_check.h"
-#include "slab/slab_solver.h"
+#include "radiometry/angular_weight.h"
 
 namespace skinglow {
 
@@ -12,7 +12,7 @@ AngularWeight skin_angular_weight(const Tissue& tissue, double thickness_mm, int
     std::vector<double> mu;
     std::vector<glm::dvec3> transmittance;
     for (std::size_t channel = 0; channel < primary_wavelengths_nm.size(); ++channel) {
-        const auto stack = layers(tissue, thickness_mm, primary_wavelengths_nm[channel]);
+        const auto stack = skin_layers(tissue, thickness_mm, primary_wavelengths_nm[channel]);
         const DirectionalTransmittance beams = directional_transmittance(stack, 1.0, 1.0, streams);
         mu.assign(beams.mu.rbegin(), beams.mu.rend());  // ascending
         transmittance.resize(mu.size());

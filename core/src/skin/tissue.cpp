@@ -1,4 +1,4 @@
-#include "skin/tissue.h"
+#include <skinglow/tissue.h>
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 #include <string>
 
 #include "numerics/argument_check.h"
+#include "skin/skin_optics.h"
 #include "spectral_tables.h"
 
 namespace skinglow {
@@ -102,6 +103,32 @@ double cartilage_reduced_scattering(double wavelength_nm) {
     return (4.0 * kubelka_munk + cartilage_absorption(wavelength_nm)) / 3.0;
 }
 
+// Of a tissue in range.
+SkinMedia media_at(const Tissue& tissue, double wavelength_nm) {
+    const double bloodless = bloodless_absorption(wavelength_nm);
+    const double melanin = tissue.melanin_fraction;
+    const double blood = tissue.blood_fraction;
+    const double cartilage = tissue.cartilage_fraction;
+    const double g = epidermal_anisotropy(wavelength_nm);
+    const double dermal_absorption =
+        blood * blood_absorption(wavelength_nm, tissue.oxygen_saturation) + (1.0 - blood) * bloodless;
+    const double inner_reduced = (1.0 - cartilage) * dermal_scattering.per_mm(wavelength_nm) +
+                                 cartilage * cartilage_reduced_scattering(wavelength_nm);
+    const double scale = tissue.scattering_scale;
+    return {.epidermis = {.refractive_index = tissue.refractive_index,
+                          .absorption =
+                              melanin * melanosome_absorption(wavelength_nm) + (1.0 - melanin) * bloodless,
+                          .scattering = scale * epidermal_scattering.per_mm(wavelength_nm) / (1.0 - g),
+                          .anisotropy = g,
+                          .thickness = tissue.epidermal_thickness_mm},
+            .inner = {.refractive_index = tissue.refractive_index,
+                      .absorption = (1.0 - cartilage) * dermal_absorption +
+                                    cartilage * cartilage_absorption(wavelength_nm),
+                      .scattering = scale * inner_reduced / (1.0 - dermal_anisotropy),
+                      .anisotropy = dermal_anisotropy,
+                      .thickness = 0.0}};
+}
+
 }  // namespace
 
 std::span<const TissueParameter> tissue_parameters() {
@@ -169,40 +196,28 @@ double bloodless_absorption(double wavelength_nm) {
 }
 
 SkinMedia skin_media(const Tissue& tissue, double wavelength_nm) {
-    validate(tissue);
-    const double bloodless = bloodless_absorption(wavelength_nm);
-    const double melanin = tissue.melanin_fraction;
-    const double blood = tissue.blood_fraction;
-    const double cartilage = tissue.cartilage_fraction;
-    const double g = epidermal_anisotropy(wavelength_nm);
-    const double dermal_absorption =
-        blood * blood_absorption(wavelength_nm, tissue.oxygen_saturation) + (1.0 - blood) * bloodless;
-    const double inner_reduced = (1.0 - cartilage) * dermal_scattering.per_mm(wavelength_nm) +
-                                 cartilage * cartilage_reduced_scattering(wavelength_nm);
-    const double scale = tissue.scattering_scale;
-    return {.epidermis = {.refractive_index = tissue.refractive_index,
-                          .absorption =
-                              melanin * melanosome_absorption(wavelength_nm) + (1.0 - melanin) * bloodless,
-                          .scattering = scale * epidermal_scattering.per_mm(wavelength_nm) / (1.0 - g),
-                          .anisotropy = g,
-                          .thickness = tissue.epidermal_thickness_mm},
-            .inner = {.refractive_index = tissue.refractive_index,
-                      .absorption = (1.0 - cartilage) * dermal_absorption +
-                                    cartilage * cartilage_absorption(wavelength_nm),
-                      .scattering = scale * inner_reduced / (1.0 - dermal_anisotropy),
-                      .anisotropy = dermal_anisotropy,
-                      .thickness = 0.0}};
+    return SkinOptics(tissue, {&wavelength_nm, 1}).media.front();
 }
 
-SkinThickness share_thickness(const Tissue& tissue, double total_thickness_mm) {
+namespace detail {
+
+SkinOptics::SkinOptics(const Tissue& tissue, std::span<const double> wavelength_nm) {
+    validate(tissue);
+    media.reserve(wavelength_nm.size());
+    for (const double nm : wavelength_nm) media.push_back(media_at(tissue, nm));
+}
+
+}  // namespace detail
+
+SkinThickness split_thickness(const Tissue& tissue, double total_thickness_mm) {
     require_not_negative("total_thickness_mm", total_thickness_mm);
     const double epidermis = std::min(tissue.epidermal_thickness_mm, 0.5 * total_thickness_mm);
     return {epidermis, std::max(0.0, total_thickness_mm - 2.0 * epidermis)};
 }
 
-std::vector<Layer> layers(const Tissue& tissue, double total_thickness_mm, double wavelength_nm) {
+std::vector<Layer> skin_layers(const Tissue& tissue, double total_thickness_mm, double wavelength_nm) {
     SkinMedia media = skin_media(tissue, wavelength_nm);
-    const SkinThickness thickness = share_thickness(tissue, total_thickness_mm);
+    const SkinThickness thickness = split_thickness(tissue, total_thickness_mm);
     media.epidermis.thickness = thickness.epidermis_mm;
     media.inner.thickness = thickness.inner_mm;
     return {media.epidermis, media.inner, media.epidermis};

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-namespace skinglow::slab {
+namespace skinglow::detail {
 
 AngularBasis::AngularBasis(Eigen::VectorXd cosine_, const Eigen::VectorXd& weight)
     : cosine(std::move(cosine_)), weight_sum(weight.sum()) {
@@ -30,4 +30,4 @@ AngularBasis::AngularBasis(Eigen::VectorXd cosine_, const Eigen::VectorXd& weigh
     }
 }
 
-}  // namespace skinglow::slab
+}  // namespace skinglow::detail

@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 
-namespace skinglow::slab {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// Orthonormal polynomials on the streams of one medium, the discrete counterpart of the Legendre
 /// polynomials.
@@ -24,4 +26,4 @@ struct AngularBasis {
     AngularBasis(Eigen::VectorXd cosine, const Eigen::VectorXd& weight);
 };
 
-}  // namespace skinglow::slab
+}  // namespace skinglow::detail

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-namespace skinglow::slab {
+namespace skinglow::detail {
 namespace {
 
 // Without absorption the smallest k is 0 and the eigenproblem infinite. This much, as a fraction of
 // scattering, stands for none: over an optical thickness of 1e6 it takes less than 1e-16 of the light.
-constexpr double least_absorption = 1e-24;
+constexpr double min_absorption = 1e-24;
 
 }  // namespace
 
@@ -47,7 +47,7 @@ LayerModes::LayerModes(const Layer& layer, const AngularBasis& basis) {
         odd[i] = absorption + scattering * (1 - moment);
         moment *= layer.anisotropy;
     }
-    even[0] = std::max(absorption, least_absorption * scattering);
+    even[0] = std::max(absorption, min_absorption * scattering);
 
     // (G^T F)^-1 = E^-1/2 Q_even^T mu Q_odd O^-1/2 is lower bidiagonal; its product with its transpose has
     // the eigenvalues 1 / k^2.
@@ -78,4 +78,4 @@ LayerModes::LayerModes(const Layer& layer, const AngularBasis& basis) {
     net_flux = flux_scale * recurrence(1) / root_odd[0] * vectors.row(0).transpose();
 }
 
-}  // namespace skinglow::slab
+}  // namespace skinglow::detail

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <skinglow/slab.h>
+
 #include <Eigen/Core>
 
 #include "slab/angular_basis.h"
-#include "slab/slab_solver.h"
 
-namespace skinglow::slab {
+namespace skinglow::detail {
 
 /// The solutions of the transport equation inside one homogeneous layer, for any thickness of it.
 ///
@@ -29,8 +30,9 @@ struct LayerModes {
     /// A layer that absorbs or scatters; its thickness is not read.
     LayerModes(const Layer& layer, const AngularBasis& basis);
 
-    /// True if light is not turned: every mode is one stream, and the matrices are diagonal.
+    /// False for a layer that only absorbs: every mode is then one stream, and shape and dual have one entry
+    /// in each row and column (streams ascend where modes descend: on the antidiagonal).
     bool scatters = true;
 };
 
-}  // namespace skinglow::slab
+}  // namespace skinglow::detail

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "slab/fresnel.h"
-
-namespace skinglow::slab {
+namespace skinglow::detail {
 
 ModeFactors mode_factors(const Eigen::VectorXd& decay, double thickness) {
     // Below this a layer is transparent to rounding; its reciprocals must not overflow.
@@ -19,10 +17,10 @@ ModeFactors mode_factors(const Eigen::VectorXd& decay, double thickness) {
         const double k = decay[i];
         const double depth = k * d;
         const double passed = std::exp(-depth);
-        const double reach = depth > 0 ? -std::expm1(-depth) / k : d;  // (1 - exp(-k d)) / k
-        factors.symmetric[i] = k * (k * reach) / (1 + passed);
-        factors.antisymmetric[i] = (1 + passed) / reach;
-        factors.through[i] = 2 * passed / (reach * (1 + passed));
+        const double lost = depth > 0 ? -std::expm1(-depth) / k : d;  // (1 - exp(-k d)) / k
+        factors.symmetric[i] = k * (k * lost) / (1 + passed);
+        factors.antisymmetric[i] = (1 + passed) / lost;
+        factors.through[i] = 2 * passed / (lost * (1 + passed));
     }
     return factors;
 }
@@ -59,7 +57,7 @@ Eigen::VectorXd boundary_reflectance(const StreamGrid& grid, double n_a, double 
     const int common = std::min(grid.count(n_a), grid.count(n_b));
     Eigen::VectorXd reflectance(common);
     for (int i = 0; i < common; ++i) {
-        reflectance[i] = fresnel_reflectance(n_a, grid.cosine(i, n_a), n_b, grid.cosine(i, n_b));
+        reflectance[i] = grid.reflectance(i, n_a, n_b);
     }
     return reflectance;
 }
@@ -78,7 +76,7 @@ Crossing cross_boundary(const StreamGrid& grid, double n_from, double n_to,
     if (reflection_below.size() == 0) return crossing;
 
     // Light is sent back and forth between the boundary and what lies below: (1 - r R)^-1. A stream that is
-    // shut in on both sides of an empty layer holds no light, but would make this singular: a total
+    // trapped in an empty layer holds no light, but would make this singular: a total
     // reflection is one rounding short of 1.
     constexpr double total = 1 - std::numeric_limits<double>::epsilon() / 2;
     Eigen::VectorXd from_below = Eigen::VectorXd::Constant(to, total);
@@ -100,4 +98,4 @@ Crossing cross_layer(const LayerOperators& layer, const Eigen::MatrixXd& reflect
     return crossing;
 }
 
-}  // namespace skinglow::slab
+}  // namespace skinglow::detail

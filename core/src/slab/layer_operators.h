@@ -5,7 +5,7 @@
 #include "slab/layer_modes.h"
 #include "slab/stream_grid.h"
 
-namespace skinglow::slab {
+namespace skinglow::detail {
 
 /// k tanh(k d / 2), k coth(k d / 2) and k / sinh(k d) of every mode, safe for k = 0, and for k d from 1e-300
 /// to infinity: only decaying exponentials appear.
@@ -39,4 +39,4 @@ Crossing cross_boundary(const StreamGrid& grid, double n_from, double n_to,
 /// The same for a layer: `reflection_below` is that of all below its lower face.
 Crossing cross_layer(const LayerOperators& layer, const Eigen::MatrixXd& reflection_below);
 
-}  // namespace skinglow::slab
+}  // namespace skinglow::detail

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstddef>
 
-namespace skinglow::slab {
+namespace skinglow::detail {
 
 bool is_empty(const Layer& layer) {
     // Thinner than this, optically, is transparent to rounding, and its reciprocals could overflow.
-    constexpr double least_depth = 1e-30;
-    return (layer.absorption + layer.scattering) * layer.thickness < least_depth || layer.thickness == 0;
+    constexpr double min_depth = 1e-30;
+    return (layer.absorption + layer.scattering) * layer.thickness < min_depth || layer.thickness == 0;
 }
 
 LayerStack::LayerStack(const StreamGrid& grid, double n_from, std::span<const Layer> layers, double n_below)
@@ -93,10 +93,10 @@ std::vector<double> LayerStack::absorbed(const Eigen::VectorXd& downward) const 
             sum += light + level.reflection_bottom * light;
             lost = mode_factors(modes.decay, level.thickness).symmetric;
         }
-        const Eigen::VectorXd share = modes.dual.transpose() * sum;
-        absorbed.push_back(std::clamp(modes.net_flux.cwiseProduct(lost).dot(share), 0.0, 1.0));
+        const Eigen::VectorXd coefficients = modes.dual.transpose() * sum;
+        absorbed.push_back(modes.net_flux.cwiseProduct(lost).dot(coefficients));
     }
     return absorbed;
 }
 
-}  // namespace skinglow::slab
+}  // namespace skinglow::detail

@@ -8,7 +8,7 @@
 
 #include "slab/layer_operators.h"
 
-namespace skinglow::slab {
+namespace skinglow::detail {
 
 /// Everything below a plane, as seen from a medium above it: layers from top to bottom and the medium under
 /// them. Built from the bottom up by adding layer after layer (van de Hulst 1980, ch. 4), each from its modes
@@ -25,7 +25,7 @@ class LayerStack {
     Eigen::VectorXd transmit(const Eigen::VectorXd& downward) const;
     /// Per entering amplitude, what leaves, weighted by `leaving`: the transposed transmission.
     Eigen::VectorXd transmit_transposed(const Eigen::VectorXd& leaving) const;
-    /// Flux that each layer absorbs, from the amplitudes that enter.
+    /// Flux that each layer absorbs, from the amplitudes that enter; not clamped.
     std::vector<double> absorbed(const Eigen::VectorXd& downward) const;
 
   private:
@@ -43,7 +43,7 @@ class LayerStack {
     bool closed_ = false;  // a half-space ends the stack: nothing leaves below
 };
 
-/// True if a layer's light is changed on its way through.
+/// True if the layer neither absorbs nor scatters: light crosses it unchanged, to rounding.
 bool is_empty(const Layer& layer);
 
-}  // namespace skinglow::slab
+}  // namespace skinglow::detail

@@ -1,40 +1,40 @@
-#include "slab/slab_arguments.h"
-
 #include <cmath>
 #include <string>
 
 #include "numerics/argument_check.h"
+#include "slab/stream_grid.h"
 
-namespace skinglow::slab {
+namespace skinglow::detail {
 namespace {
 
-void check_index(const std::string& name, double n) {
-    if (!std::isfinite(n) || n < 1) refuse_argument(name, to_text(n), "a finite number, 1 or more");
+template <ArgumentName Name>
+void check_index(const Name& name, double n) {
+    if (!(n >= 1 && n <= max_refractive_index)) {
+        refuse_value(name, n, "1 to " + to_text(max_refractive_index));
+    }
 }
 
 void check_layer(std::span<const Layer> layers, std::size_t i) {
     const Layer& layer = layers[i];
-    const std::string name = "layers[" + std::to_string(i) + "].";
-    check_index(name + "refractive_index", layer.refractive_index);
-    require_not_negative(name + "absorption", layer.absorption);
-    require_not_negative(name + "scattering", layer.scattering);
+    const auto field = [i](const char* name) {
+        return [i, name] { return entry_name("layers", i)() + "." + name; };
+    };
+    check_index(field("refractive_index"), layer.refractive_index);
+    require_not_negative(field("absorption"), layer.absorption);
+    require_not_negative(field("scattering"), layer.scattering);
     if (!std::isfinite(layer.absorption + layer.scattering)) {
-        refuse_argument(name + "scattering", to_text(layer.scattering),
-                        "a number whose sum with absorption is finite");
+        refuse_value(field("scattering"), layer.scattering, "a number whose sum with absorption is finite");
     }
     if (!(std::abs(layer.anisotropy) < 1)) {
-        refuse_argument(name + "anisotropy", to_text(layer.anisotropy), "above -1 and below 1");
+        refuse_value(field("anisotropy"), layer.anisotropy, "above -1 and below 1");
     }
     const double thickness = layer.thickness;
-    if (std::isnan(thickness) || thickness < 0) {
-        refuse_argument(name + "thickness", to_text(thickness), "0 mm or more");
-    }
+    if (!(thickness >= 0)) refuse_value(field("thickness"), thickness, "0 mm or more");
     if (std::isinf(thickness) && i + 1 < layers.size()) {
-        refuse_argument(name + "thickness", to_text(thickness), "infinity in the last layer alone");
+        refuse_value(field("thickness"), thickness, "infinity in the last layer alone");
     }
     if (std::isinf(thickness) && layer.absorption + layer.scattering <= 0) {
-        refuse_argument(name + "thickness", to_text(thickness),
-                        "infinity only in a layer that absorbs or scatters");
+        refuse_value(field("thickness"), thickness, "infinity only in a layer that absorbs or scatters");
     }
 }
 
@@ -50,11 +50,21 @@ void check_arguments(std::span<const Layer> layers, Incidence incidence, double 
         refuse_argument("incidence", to_text(incidence.mu0),
                         R"("normal", "diffuse" or a cosine above 0, at most 1)");
     }
-    if (streams < least_streams || streams > most_streams || streams % 2 != 0) {
+    if (streams < min_streams || streams > max_streams || streams % 2 != 0) {
         refuse_argument(
             "streams", std::to_string(streams),
-            "an even number from " + std::to_string(least_streams) + " to " + std::to_string(most_streams));
+            "an even number from " + std::to_string(min_streams) + " to " + std::to_string(max_streams));
     }
 }
 
-}  // namespace skinglow::slab
+double flux_fraction(const char* name, double value, int streams) {
+    constexpr double rounding = 1e-11;
+    if (!(value >= -rounding && value <= 1 + rounding)) {
+        refuse_argument("streams", std::to_string(streams),
+                        std::string("more for these layers and this incidence: ") + name +
+                            " would come out as " + to_text(value));
+    }
+    return std::min(std::max(value, 0.0), 1.0);
+}
+
+}  // namespace skinglow::detail

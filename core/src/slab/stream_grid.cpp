@@ -5,20 +5,20 @@
 #include <cstddef>
 #include <numbers>
 
-#include "slab/quadrature.h"
+#include "numerics/quadrature.h"
 
-namespace skinglow::slab {
+namespace skinglow::detail {
 namespace {
 
 // Indices closer than this are one: the interval between them would hold grazing streams alone.
 constexpr double same_index = 1e-10;
 // A beam that grazes more than this is taken as this one: its invariant could not be told from the index.
-constexpr double least_mu0 = 1e-6;
+constexpr double min_mu0 = 1e-6;
 
-// Streams of each interval: in proportion to its share of the angles in the largest index, at least two.
+// Streams of each interval: in proportion to the angles it covers in the largest index, at least two.
 // Rounding favors the shallow angles: a rule for the steep ones that is denser than that of the others costs
 // accuracy.
-std::vector<int> share_out(const std::vector<double>& index, int streams) {
+std::vector<int> streams_by_interval(const std::vector<double>& index, int streams) {
     const double largest = index.back();
     std::vector<int> counts;
     double low = 0;
@@ -33,21 +33,12 @@ std::vector<int> share_out(const std::vector<double>& index, int streams) {
     return counts;
 }
 
-// What a grid depends on, as numbers to compare.
-std::vector<double> key_of(std::span<const Layer> layers, Incidence incidence, double n_above, double n_below,
-                           int streams) {
-    std::vector<double> key{static_cast<double>(incidence.kind),
-                            incidence.kind == Incidence::Kind::oblique ? incidence.mu0 : 1, n_above, n_below,
-                            static_cast<double>(streams)};
-    for (const Layer& layer : layers) key.push_back(layer.refractive_index);
-    return key;
-}
-
 }  // namespace
 
 StreamGrid::StreamGrid(std::span<const Layer> layers, Incidence incidence, double n_above, double n_below,
                        int streams)
-    : key_(key_of(layers, incidence, n_above, n_below, streams)) {
+    : n_above_(n_above), n_below_(n_below), requested_(streams) {
+    check_arguments(layers, incidence, n_above, n_below, streams);
     double largest = 0;
     for (const Layer& layer : layers) largest = std::max(largest, layer.refractive_index);
     std::vector<double> index{std::min(n_above, largest), std::min(n_below, largest)};
@@ -59,9 +50,9 @@ StreamGrid::StreamGrid(std::span<const Layer> layers, Incidence incidence, doubl
     index.back() = largest;
 
     const bool collimated = incidence.kind != Incidence::Kind::diffuse;
-    const double mu0 = incidence.kind == Incidence::Kind::oblique ? std::max(incidence.mu0, least_mu0) : 1;
+    const double mu0 = incidence.kind == Incidence::Kind::oblique ? std::max(incidence.mu0, min_mu0) : 1;
     const double invariant = n_above * std::sqrt((1 - mu0) * (1 + mu0));
-    const std::vector<int> counts = share_out(index, streams);
+    const std::vector<int> counts = streams_by_interval(index, streams);
     double low = 0;
     for (std::size_t i = 0; i < index.size(); ++i) {
         const bool here = collimated && invariant < index[i] && invariant >= low;
@@ -120,20 +111,21 @@ void StreamGrid::add_interval(double n_low, double n_high, int count, bool beam_
     };
     constexpr double narrow = 1e-9;  // a piece beside the beam that is narrower needs no streams
     if (!beam_here) {
-        add(gauss_rule(count), 0, steepest);
+        add(gauss_rule(static_cast<std::size_t>(count)), 0, steepest);
     } else if (steepest - beam_cosine <= narrow) {
-        add(radau_rule(count, FixedNode::at_one), 0, steepest);
+        add(radau_rule(static_cast<std::size_t>(count), FixedNode::at_one), 0, steepest);
     } else {
         // A rule on either side that ends at the beam: both are smooth there, and the beam's stream is
         // shared.
         const int above =
             std::clamp(static_cast<int>(std::lround((count + 1) * (1 - beam_cosine / steepest))), 2,
                        std::max(2, count - 1));
-        add(radau_rule(std::max(2, count + 1 - above), FixedNode::at_one), 0, beam_cosine);
+        add(radau_rule(static_cast<std::size_t>(std::max(2, count + 1 - above)), FixedNode::at_one), 0,
+            beam_cosine);
         const Stream shared = added.back();
         added.pop_back();
         const std::size_t first = added.size();
-        add(radau_rule(above, FixedNode::at_zero), beam_cosine, steepest);
+        add(radau_rule(static_cast<std::size_t>(above), FixedNode::at_zero), beam_cosine, steepest);
         added[first].cosine = beam_cosine;
         added[first].flux_weight += shared.flux_weight;
     }
@@ -156,18 +148,14 @@ double StreamGrid::cosine(int stream, double n) const {
     return std::sqrt(std::max(squared, 1e-20));
 }
 
-bool StreamGrid::serves(std::span<const Layer> layers, Incidence incidence, double n_above, double n_below,
-                        int streams) const {
-    return key_ == key_of(layers, incidence, n_above, n_below, streams);
+// Born and Wolf, Principles of Optics, 1.5.2.
+double StreamGrid::reflectance(int stream, double n_a, double n_b) const {
+    if (stream >= count(n_a) || stream >= count(n_b)) return 1;
+    const double cosine_a = cosine(stream, n_a);
+    const double cosine_b = cosine(stream, n_b);
+    const double perpendicular = (n_a * cosine_a - n_b * cosine_b) / (n_a * cosine_a + n_b * cosine_b);
+    const double parallel = (n_a * cosine_b - n_b * cosine_a) / (n_a * cosine_b + n_b * cosine_a);
+    return 0.5 * (perpendicular * perpendicular + parallel * parallel);
 }
 
-std::shared_ptr<const StreamGrid> stream_grid(std::span<const Layer> layers, Incidence incidence,
-                                              double n_above, double n_below, int streams) {
-    thread_local std::shared_ptr<const StreamGrid> last;
-    if (!last || !last->serves(layers, incidence, n_above, n_below, streams)) {
-        last = std::make_shared<const StreamGrid>(layers, incidence, n_above, n_below, streams);
-    }
-    return last;
-}
-
-}  // namespace skinglow::slab
+}  // namespace skinglow::detail

@@ -1,15 +1,15 @@
 #pragma once
 
+#include <skinglow/slab.h>
+
 #include <Eigen/Core>
 #include <map>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "slab/angular_basis.h"
-#include "slab/slab_solver.h"
 
-namespace skinglow::slab {
+namespace skinglow::detail {
 
 /// The directions of a solve, shared by all layers.
 ///
@@ -24,31 +24,35 @@ namespace skinglow::slab {
 /// sqrt(W) y (of a hemisphere of unit radiance: W), and all operators on y are symmetric by reciprocity.
 class StreamGrid {
   public:
-    /// Arguments as for solve_slab, already checked. Normal and oblique beams are given a stream of their
-    /// own.
+    /// Parameters and errors as for slab. Of the layers, the grid depends on the refractive indices alone: one
+    /// grid serves all wavelengths of layers without dispersion. Normal and oblique beams are given a stream
+    /// of their own.
     StreamGrid(std::span<const Layer> layers, Incidence incidence, double n_above, double n_below,
                int streams);
 
     /// Streams that propagate in a medium of this index.
     int count(double n) const;
-    /// Cosine of a stream that propagates there.
+    /// Cosine of a stream that propagates in a medium of index n.
     double cosine(int stream, double n) const;
     /// The cosines of all of them, and the phase function's basis on them; only for an index of a layer.
     const AngularBasis& basis(double n) const { return bases_.at(n); }
 
+    /// Fresnel reflectance of unpolarized light at a boundary from index n_a to n_b; 1 where a stream does not
+    /// propagate on both sides.
+    double reflectance(int stream, double n_a, double n_b) const;
+
+    double n_above() const { return n_above_; }
+    double n_below() const { return n_below_; }
+    int streams() const { return requested_; }
     int size() const { return static_cast<int>(streams_.size()); }
     double flux_weight(int stream) const { return streams_[static_cast<std::size_t>(stream)].flux_weight; }
     /// sqrt(W) of the first streams: its product with an amplitude is the flux.
     const Eigen::VectorXd& root_flux_weight() const { return root_flux_weight_; }
 
     /// Amplitudes above the first layer that carry the incident flux of 1. Diffuse light from an index above
-    /// all the layers' is partly left out: what total reflection sends straight back, `reflected_outright`.
+    /// all the layers' is partly left out: what is totally reflected at once, `reflected_outright`.
     const Eigen::VectorXd& incident() const { return incident_; }
     double reflected_outright() const { return reflected_outright_; }
-
-    /// True if a grid for these arguments would be this one: what depends on wavelength alone does not count.
-    bool serves(std::span<const Layer> layers, Incidence incidence, double n_above, double n_below,
-                int streams) const;
 
   private:
     struct Stream {
@@ -63,12 +67,17 @@ class StreamGrid {
     Eigen::VectorXd incident_;
     double reflected_outright_ = 0;
     std::map<double, AngularBasis> bases_;
-    std::vector<double> key_;
+    double n_above_, n_below_;
+    int requested_;
 };
 
-/// The grid for these arguments; the last one used on this thread is kept, since the wavelengths of a
-/// spectrum mostly differ in coefficients alone.
-std::shared_ptr<const StreamGrid> stream_grid(std::span<const Layer> layers, Incidence incidence,
-                                              double n_above, double n_below, int streams);
+/// Throws std::invalid_argument that names the layer, the field, its value and what is allowed.
+void check_arguments(std::span<const Layer> layers, Incidence incidence, double n_above, double n_below,
+                     int streams);
 
-}  // namespace skinglow::slab
+/// A fraction of the incident flux with its rounding errors below 0 and above 1 taken away. Where it is
+/// outside by more, the streams are too few for the phase function: throws std::invalid_argument.
+/// @param name of the fraction, for the message
+double flux_fraction(const char* name, double value, int streams);
+
+}  // namespace skinglow::detail

@@ -1,6 +1,5 @@
-#include "color/spectrum.h"
-
 #include <gtest/gtest.h>
+#include <skinglow/spectrum.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "rig/surface_lighting.h"
 
 #include <gtest/gtest.h>
+#include <skinglow/tissue.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -10,7 +11,6 @@
 #include "random_lights.h"
 #include "rig/irradiance.h"
 #include "rig/surface_irradiance.h"
-#include "skin/skin_angular_weight.h"
 
 using namespace skinglow;
 

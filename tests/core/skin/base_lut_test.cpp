@@ -1,6 +1,5 @@
-#include "skin/base_lut.h"
-
 #include <gtest/gtest.h>
+#include <skinglow/lut.h>
 
 #include <limits>
 

@@ -1,6 +1,5 @@
-#include "skin/recolor.h"
-
 #include <gtest/gtest.h>
+#include <skinglow/lut.h>
 
 #include <cmath>
 #include <limits>

@@ -1,15 +1,14 @@
-#include "skin/skin_lut.h"
-
 #include <gtest/gtest.h>
+#include <skinglow/lut.h>
+#include <skinglow/spectrum.h>
+#include <skinglow/tissue.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
 #include <vector>
 
-#include "color/spectrum.h"
 #include "random_tissue.h"
-#include "skin/skin_transmittance.h"
 
 namespace skinglow {
 namespace {
@@ -41,7 +40,7 @@ TEST(SkinLut, EstimateBoundsTheErrorOnRandomSkins) {
         const double max_thickness_mm = 1.0 + 19.0 * uniform(random);
         const double tolerance = std::pow(10.0, -1.0 - 3.0 * uniform(random));
         const std::size_t size = trial % 4 == 0 ? 9 : 40;
-        const SkinLut found = skin_lut(tissue, size, max_thickness_mm, tolerance);
+        const SkinLut found = base_lut_report(tissue, size, max_thickness_mm, tolerance);
         const double error =
             lut_error(found.lut, reference_lut(tissue, size, max_thickness_mm, exact_streams));
         EXPECT_LE(error, found.report.estimated_error) << "trial " << trial << ", tolerance " << tolerance;
@@ -60,26 +59,21 @@ TEST(SkinLut, EveryPresetMeetsEveryTolerance) {
 }
 
 TEST(SkinLut, SolvesLessForLess) {
-    std::size_t before = 0;
-    for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4}) {
-        const SkinLutReport report = skin_lut({}, 256, 12.0, tolerance).report;
-        EXPECT_GT(report.pairs_solved, before);
-        EXPECT_EQ(report.estimated_error, report.stream_error + report.node_error + report.wavelength_error);
-        EXPECT_LT(report.pairs_solved, spectral_samples * 256 / 4);
-        before = report.pairs_solved;
+    int before = 0;
+    for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+        const SkinLutReport report = base_lut_report({}, 4, 12.0, tolerance).report;
+        EXPECT_GT(report.streams, before);
+        EXPECT_LE(report.estimated_error, tolerance);
+        before = report.streams;
     }
-    EXPECT_GT(skin_lut(tissue_preset("flushed").tissue, 256, 12.0, 1e-3).report.pairs_skipped, 0U);
 }
 
-TEST(SkinLut, PlanIsFollowed) {
-    const SkinLutReport report = skin_lut({}, 256, 12.0, SkinLutPlan{12, 21, 2}).report;
-    EXPECT_EQ(report.streams, 12);
-    EXPECT_EQ(report.wavelengths_nm.size(), 41U);
-    EXPECT_EQ(report.wavelengths_nm[1], 390.0);
-    EXPECT_EQ(report.thickness_nodes_mm.back(), 12.0);
-    // Everything at once is the reference itself.
-    const SkinLut all = skin_lut({}, 64, 12.0, SkinLutPlan{16, 65, 1});
-    EXPECT_LT(lut_error(all.lut, reference_lut({}, 64, 12.0, 16)), 1e-12);
+TEST(SkinLut, IsTheSameOnAnyNumberOfThreads) {
+    const BaseLut one = reference_lut({}, 64, 12.0, 8, 1);
+    for (const int threads : {0, 2, 7}) {
+        const BaseLut lut = reference_lut({}, 64, 12.0, 8, threads);
+        EXPECT_TRUE(std::ranges::equal(lut.matrices(), one.matrices())) << threads;
+    }
 }
 
 TEST(SkinLut, ColorFadesToRedAndEveryPrimaryFades) {
@@ -100,7 +94,7 @@ TEST(SkinLut, ColorFadesToRedAndEveryPrimaryFades) {
 TEST(SkinLut, AnyTableSizeAndThicknessWorks) {
     for (const std::size_t size : {1U, 2U, 7U, 300U}) {
         for (const double max_thickness_mm : {1e-3, 0.13, 100.0}) {
-            const SkinLut found = skin_lut({}, size, max_thickness_mm, 1e-3);
+            const SkinLut found = base_lut_report({}, size, max_thickness_mm, 1e-3);
             EXPECT_EQ(found.lut.size(), size);
             const BaseLut exact = reference_lut({}, size, max_thickness_mm, exact_streams);
             EXPECT_LE(lut_error(found.lut, exact), found.report.estimated_error)
@@ -120,9 +114,7 @@ TEST(SkinLut, RefusesBadInput) {
     Tissue bad;
     bad.melanin_fraction = 0.9;
     EXPECT_THROW(base_lut(bad), std::invalid_argument);
-    EXPECT_THROW(skin_lut({}, 256, 12.0, SkinLutPlan{16, 4, 1}), std::invalid_argument);
-    EXPECT_THROW(skin_lut({}, 256, 12.0, SkinLutPlan{16, 17, 3}), std::invalid_argument);
-    EXPECT_THROW(skin_lut({}, 256, 12.0, SkinLutPlan{15, 17, 4}), std::invalid_argument);
+    EXPECT_THROW(reference_lut({}, 256, 12.0, 15), std::invalid_argument);
     EXPECT_THROW(lut_error(base_lut({}, 4), base_lut({}, 5)), std::invalid_argument);
 }
 

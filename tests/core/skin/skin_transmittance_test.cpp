@@ -1,6 +1,5 @@
-#include "skin/skin_transmittance.h"
-
 #include <gtest/gtest.h>
+#include <skinglow/tissue.h>
 
 #include <cmath>
 #include <limits>
@@ -8,7 +7,6 @@
 #include <vector>
 
 #include "random_tissue.h"
-#include "skin/diffusion_approximation.h"
 
 namespace skinglow {
 namespace {
@@ -27,9 +25,9 @@ TEST(SkinTransmittance, IsTheSlabOfItsLayers) {
                      thickness = 4.0 * uniform(random) * uniform(random);
         for (const Incidence incidence :
              {Incidence::diffuse(), Incidence::normal(), Incidence::oblique(0.4)}) {
-            const double slab =
-                solve_slab(layers(tissue, thickness, nm), incidence, 1.0, 1.0, 16).transmittance;
-            EXPECT_NEAR(at(tissue, {thickness}, nm, incidence)[0] / slab, 1.0, 1e-9)
+            const double solved =
+                slab(skin_layers(tissue, thickness, nm), incidence, 1.0, 1.0, 16).transmittance;
+            EXPECT_NEAR(at(tissue, {thickness}, nm, incidence)[0] / solved, 1.0, 1e-9)
                 << thickness << " mm, " << nm << " nm";
         }
     }
@@ -91,26 +89,6 @@ TEST(SkinTransmittance, RefusesBadInput) {
     EXPECT_THROW(at({}, {1.0}, 500.0, Incidence::oblique(0.0)), std::invalid_argument);
     EXPECT_THROW(at({}, {1.0}, 500.0, Incidence::diffuse(), 7), std::invalid_argument);
     EXPECT_TRUE(at({}, {}, 500.0).empty());
-}
-
-TEST(DiffusionApproximation, HasTheDecayRateOfTheSolution) {
-    // Deep in skin only the slowest mode is left: P3's rate is right to 0.1 %, the classic one is not.
-    const std::vector<double> deep{20.0, 21.0}, nm{600.0};
-    const auto solved = transmittance({}, deep, nm, Incidence::diffuse(), 32);
-    const double rate = -std::log(solved[1] / solved[0]);
-    const DiffusionCurve curve({}, 600.0, DiffusionCurve::Coefficient::asymptotic);
-    EXPECT_NEAR((curve.log_transmittance(20.0) - curve.log_transmittance(21.0)) / rate, 1.0, 1e-3);
-    const auto classic = diffusion_transmittance({}, deep, nm);
-    EXPECT_NEAR(-std::log(classic[1] / classic[0]) / rate, 1.0, 0.02);
-}
-
-TEST(DiffusionApproximation, NeverLosesLightWithoutAbsorption) {
-    // Reciprocity: what gets in, times n^2, is what gets out; and at n = 1 nothing is reflected.
-    EXPECT_EQ(diffuse_fresnel_reflectance(1.0), 0.0);
-    // Known value for n = 1.5: 0.0918 (J. W. T. Walsh 1926, tabulated by R. A. Judd, J. Res. NBS 29:329,
-    // 1942).
-    EXPECT_NEAR(diffuse_fresnel_reflectance(1.5), 0.0918, 2e-4);
-    EXPECT_THROW(diffuse_fresnel_reflectance(0.9), std::invalid_argument);
 }
 
 }  // namespace

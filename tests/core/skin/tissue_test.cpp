@@ -1,6 +1,5 @@
-#include "skin/tissue.h"
-
 #include <gtest/gtest.h>
+#include <skinglow/tissue.h>
 
 #include <cmath>
 #include <limits>
@@ -90,7 +89,7 @@ TEST(Tissue, OuterLayersKeepTheirThicknessAndTheInnerTakesTheRest) {
     Tissue tissue;
     tissue.epidermal_thickness_mm = 0.1;
     for (const double total : {0.0, 0.05, 0.19999, 0.2, 0.20001, 1.0, 12.0}) {
-        const auto skin = layers(tissue, total, 500.0);
+        const auto skin = skin_layers(tissue, total, 500.0);
         ASSERT_EQ(skin.size(), 3U);
         EXPECT_EQ(skin[0].thickness, skin[2].thickness);
         EXPECT_EQ(skin[0].thickness, std::min(0.1, 0.5 * total));
@@ -136,8 +135,8 @@ TEST(Tissue, RefusesWavelengthsWithoutData) {
         EXPECT_THROW(skin_media({}, nm), std::invalid_argument);
     }
     EXPECT_THROW(blood_absorption(500.0, 1.1), std::invalid_argument);
-    EXPECT_THROW(layers({}, -1.0, 500.0), std::invalid_argument);
-    EXPECT_THROW(layers({}, std::numeric_limits<double>::infinity(), 500.0), std::invalid_argument);
+    EXPECT_THROW(skin_layers({}, -1.0, 500.0), std::invalid_argument);
+    EXPECT_THROW(skin_layers({}, std::numeric_limits<double>::infinity(), 500.0), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <skinglow/slab.h>
+
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include "slab/slab_solver.h"
 
 namespace skinglow::testing {
 

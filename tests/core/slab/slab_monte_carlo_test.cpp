@@ -1,13 +1,13 @@
 // The slab solver against photons, where no closed form exists: layers with indices and coefficients of their
 // own.
 #include <gtest/gtest.h>
+#include <skinglow/slab.h>
 
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "monte_carlo.h"
-#include "slab/slab_solver.h"
 
 namespace skinglow {
 namespace {
@@ -54,26 +54,26 @@ class MonteCarloTest : public ::testing::TestWithParam<Case> {};
 
 TEST(MonteCarlo, confirms_that_a_grazing_beam_gains_by_scattering) {
     Layer plate{1.6, 0, 60, 0.66, 0.02};
-    const double scattering = solve_slab({&plate, 1}, Incidence::oblique(0.0136), 1, 1, 32).transmittance;
+    const double scattering = slab({&plate, 1}, Incidence::oblique(0.0136), 1, 1, 32).transmittance;
     plate.thickness = 0;
-    EXPECT_GT(scattering, 1.05 * solve_slab({&plate, 1}, Incidence::oblique(0.0136), 1, 1, 32).transmittance);
+    EXPECT_GT(scattering, 1.05 * slab({&plate, 1}, Incidence::oblique(0.0136), 1, 1, 32).transmittance);
 }
 
 TEST_P(MonteCarloTest, agrees_within_four_and_a_half_standard_errors) {
     const Case& c = GetParam();
     const auto photons =
         testing::monte_carlo_slab(c.layers, c.incidence, c.n_above, c.n_below, 100000, 20240);
-    const SlabResult slab = solve_slab(c.layers, c.incidence, c.n_above, c.n_below, 32);
+    const SlabResult solved = slab(c.layers, c.incidence, c.n_above, c.n_below, 32);
     const auto near = [](double value, const Estimate& estimate, const std::string& what) {
         EXPECT_LE(std::abs(value - estimate.mean), 4.5 * estimate.error + 1e-6)
             << what << ": " << value << " against " << estimate.mean << " +- " << estimate.error;
         EXPECT_LT(estimate.error, 2e-3) << what << ": too noisy to tell anything";
     };
-    near(slab.reflectance, photons.reflectance, "reflectance");
-    near(slab.transmittance, photons.transmittance, "transmittance");
-    near(slab.unscattered, photons.unscattered, "unscattered");
-    for (std::size_t i = 0; i < slab.absorbed.size(); ++i) {
-        near(slab.absorbed[i], photons.absorbed[i], "absorbed in layer " + std::to_string(i));
+    near(solved.reflectance, photons.reflectance, "reflectance");
+    near(solved.transmittance, photons.transmittance, "transmittance");
+    near(solved.unscattered, photons.unscattered, "unscattered");
+    for (std::size_t i = 0; i < solved.absorbed.size(); ++i) {
+        near(solved.absorbed[i], photons.absorbed[i], "absorbed in layer " + std::to_string(i));
     }
 }
 

@@ -1,6 +1,5 @@
-#include "slab/thickness_curve.h"
-
 #include <gtest/gtest.h>
+#include <skinglow/slab.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -47,8 +46,7 @@ TEST_P(ThicknessCurveTest, is_the_slab_solver_for_every_thickness) {
         for (std::size_t i = 0; i < thickness.size(); ++i) {
             std::vector<Layer> layers = stack.layers;
             layers[stack.variable].thickness = thickness[i];
-            const double expected =
-                solve_slab(layers, incidence, stack.n_above, stack.n_below, 8).transmittance;
+            const double expected = slab(layers, incidence, stack.n_above, stack.n_below, 8).transmittance;
             EXPECT_NEAR(out[i] / expected, 1, 1e-11) << thickness[i] << " mm";
             EXPECT_NEAR(curve.transmittance(thickness[i]) / out[i], 1, 1e-13) << thickness[i] << " mm";
         }

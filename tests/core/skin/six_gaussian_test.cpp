@@ -1,6 +1,5 @@
-#include "skin/fixed_lookup.h"
-
 #include <gtest/gtest.h>
+#include <skinglow/lut.h>
 
 #include <cmath>
 

@@ -1,9 +1,8 @@
-#include "skin/fixed_lookup.h"
+#include <skinglow/lut.h>
+#include <skinglow/spectrum.h>
 
 #include <array>
 #include <cmath>
-
-#include "color/luminance.h"
 
 namespace skinglow {
 namespace {

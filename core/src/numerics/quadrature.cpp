@@ -1,16 +1,18 @@
-#include "slab/quadrature.h"
+#include "numerics/quadrature.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <cstddef>
 
-namespace skinglow::slab {
+namespace skinglow::detail {
 namespace {
 
 // Off-diagonal of the Jacobi matrix of the Legendre polynomials on [-1, 1].
-Eigen::VectorXd legendre_recurrence(int count) {
-    Eigen::VectorXd off(count - 1);
-    for (int i = 1; i < count; ++i) off[i - 1] = i / std::sqrt(4.0 * i * i - 1);
+Eigen::VectorXd legendre_recurrence(std::size_t count) {
+    Eigen::VectorXd off(static_cast<Eigen::Index>(count) - 1);
+    for (Eigen::Index i = 0; i < off.size(); ++i) {
+        const auto degree = static_cast<double>(i + 1);
+        off[i] = degree / std::sqrt(4 * degree * degree - 1);
+    }
     return off;
 }
 
@@ -28,18 +30,19 @@ Quadrature rule_of_jacobi_matrix(const Eigen::VectorXd& diagonal, const Eigen::V
 
 }  // namespace
 
-Quadrature gauss_rule(int count) {
-    return rule_of_jacobi_matrix(Eigen::VectorXd::Zero(count), legendre_recurrence(count));
+Quadrature gauss_rule(std::size_t count) {
+    return rule_of_jacobi_matrix(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count)),
+                                 legendre_recurrence(count));
 }
 
-Quadrature radau_rule(int count, FixedNode end) {
+Quadrature radau_rule(std::size_t count, FixedNode end) {
     if (count == 1) return {{end == FixedNode::at_one ? 1.0 : 0.0}, {1.0}};
     // Golub (1973, SIAM Review 15:318): the last diagonal entry is chosen so that the end is an eigenvalue.
     const Eigen::VectorXd off = legendre_recurrence(count);
     double ratio = 1;  // p_k(1) / p_(k-1)(1) of the monic polynomials
-    for (int k = 2; k <= count - 1; ++k) ratio = 1 - off[k - 2] * off[k - 2] / ratio;
-    Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(count);
-    diagonal[count - 1] = 1 - off[count - 2] * off[count - 2] / ratio;
+    for (Eigen::Index k = 0; k + 1 < off.size(); ++k) ratio = 1 - off[k] * off[k] / ratio;
+    Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(off.size() + 1);
+    diagonal[off.size()] = 1 - off[off.size() - 1] * off[off.size() - 1] / ratio;
     Quadrature rule = rule_of_jacobi_matrix(diagonal, off);
     rule.node.back() = 1;
     if (end == FixedNode::at_one) return rule;
@@ -51,4 +54,4 @@ Quadrature radau_rule(int count, FixedNode end) {
     return mirrored;
 }
 
-}  // namespace skinglow::slab
+}  // namespace skinglow::detail
