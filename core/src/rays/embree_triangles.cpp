@@ -23,7 +23,7 @@ using QueryContext = RTCIntersectContext;
 struct FilterContext {
     QueryContext embree;
     std::span<const TriangleRange> excluded;  ///< for reject_excluded
-    RayHits* found;                           ///< for collect
+    const HitVisitor* visitor;                ///< for show_to_visitor
 };
 
 [[noreturn]] void fail(const std::string& what) {
@@ -75,16 +75,19 @@ void reject_excluded(const RTCFilterFunctionNArguments* arguments) {
     }
 }
 
-/// Intersection filter: notes every hit and rejects it, so that the ray goes on to its end.
-void collect(const RTCFilterFunctionNArguments* arguments) {
-    RayHits& found = *reinterpret_cast<const FilterContext*>(arguments->context)->found;
+/// Intersection filter: shows each hit to the visitor and rejects it, so that the ray goes on; or accepts it to end the
+/// ray at the limit.
+void show_to_visitor(const RTCFilterFunctionNArguments* arguments) {
+    const HitVisitor& visitor = *reinterpret_cast<const FilterContext*>(arguments->context)->visitor;
     for (unsigned int i = 0; i < arguments->N; ++i) {
         if (arguments->valid[i] == 0) continue;
-        arguments->valid[i] = 0;
-        found.overflowed = found.overflowed || found.count == RayHits::max_count;
-        if (found.overflowed) continue;
-        found.hits[found.count++] = {RTCRayN_tfar(arguments->ray, arguments->N, i),
-                                     RTCHitN_primID(arguments->hit, arguments->N, i)};
+        float& end = RTCRayN_tfar(arguments->ray, arguments->N, i);
+        const float limit = visitor(end, RTCHitN_primID(arguments->hit, arguments->N, i));
+        if (limit == std::numeric_limits<float>::infinity()) {
+            arguments->valid[i] = 0;
+        } else {
+            end = limit;
+        }
     }
 }
 
@@ -106,7 +109,7 @@ void add_triangles(RTCDevice device, RTCScene scene, std::span<const glm::dvec3>
         for (int k = 0; k < 3; ++k) *to_corner++ = t[k];
     }
     rtcSetGeometryOccludedFilterFunction(geometry, reject_excluded);
-    rtcSetGeometryIntersectFilterFunction(geometry, collect);
+    rtcSetGeometryIntersectFilterFunction(geometry, show_to_visitor);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
@@ -153,15 +156,13 @@ EmbreeTriangles::EmbreeTriangles(std::span<const glm::dvec3> points, std::span<c
 
 EmbreeTriangles::~EmbreeTriangles() = default;
 
-void EmbreeTriangles::crossings(const glm::dvec3& origin, const glm::dvec3& direction, float from,
-                                RayHits& found) const {
-    found.count = 0;
-    found.overflowed = false;
+void EmbreeTriangles::visit(const glm::dvec3& origin, const glm::dvec3& direction, float from,
+                            const HitVisitor& visitor) const {
     RTCRayHit query{};
     query.ray = ray_from(origin, direction, from, std::numeric_limits<float>::infinity());
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    FilterContext context{.embree = {}, .excluded = {}, .found = &found};
+    FilterContext context{.embree = {}, .excluded = {}, .visitor = &visitor};
 #if RTC_VERSION_MAJOR >= 4
     rtcInitRayQueryContext(&context.embree);
     RTCIntersectArguments arguments;
@@ -177,7 +178,7 @@ void EmbreeTriangles::crossings(const glm::dvec3& origin, const glm::dvec3& dire
 bool EmbreeTriangles::occluded(const glm::dvec3& origin, const glm::dvec3& direction, float from, float to,
                                std::span<const TriangleRange> excluded) const {
     RTCRay ray = ray_from(origin, direction, from, to);
-    FilterContext context{.embree = {}, .excluded = excluded, .found = nullptr};
+    FilterContext context{.embree = {}, .excluded = excluded, .visitor = nullptr};
 #if RTC_VERSION_MAJOR >= 4
     rtcInitRayQueryContext(&context.embree);
     RTCOccludedArguments arguments;

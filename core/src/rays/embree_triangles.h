@@ -1,8 +1,7 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -17,18 +16,9 @@ struct TriangleRange {
     std::uint32_t end;
 };
 
-/// Everything that a ray crosses, in no order.
-struct RayHits {
-    struct Hit {
-        float distance;
-        std::uint32_t triangle;
-    };
-    static constexpr std::size_t max_count = 256;
-
-    std::array<Hit, max_count> hits;
-    std::size_t count = 0;
-    bool overflowed = false;  ///< there are more than max_count; the rest is lost
-};
+/// Told each hit of a ray, in no order: distance and triangle. Returns how far along the ray hits still matter; infinity
+/// for no limit. Must not throw.
+using HitVisitor = std::function<float(float distance, std::uint32_t triangle)>;
 
 /// Triangles in Embree 3 or 4. The only file that includes Embree. Single precision: coordinates should lie about
 /// the origin, at about the size of 1. All that is const may be called from many threads at once.
@@ -41,10 +31,10 @@ class EmbreeTriangles {
     EmbreeTriangles(const EmbreeTriangles&) = delete;
     EmbreeTriangles& operator=(const EmbreeTriangles&) = delete;
 
-    /// All triangles that a ray crosses, from a distance on, either side of them, in one traversal. A ray through
-    /// an edge may hit both triangles there.
+    /// Visits all triangles that a ray crosses from a distance on, either side of them, in one traversal; those beyond
+    /// the limits that the visitor gives may be left out. A ray through an edge may hit both triangles there.
     /// @param direction  unit length
-    void crossings(const glm::dvec3& origin, const glm::dvec3& direction, float from, RayHits& found) const;
+    void visit(const glm::dvec3& origin, const glm::dvec3& direction, float from, const HitVisitor& visitor) const;
 
     /// Whether a triangle lies between two distances along a ray.
     /// @param direction  unit length

@@ -1,6 +1,7 @@
 #include "rays/ray_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <vector>
@@ -12,6 +13,9 @@ namespace {
 
 /// Uncertainty of a hit's distance, in edges of the unit box: some ten roundings of single precision.
 constexpr float hit_tolerance = 1e-6F;
+
+/// Surfaces that a ray may cross.
+constexpr std::size_t max_crossings = 256;
 
 std::vector<glm::uvec3> corners_of(const WeldedMesh& mesh) {
     std::vector<glm::uvec3> corners;
@@ -84,24 +88,39 @@ double RayScene::sky_visibility(std::uint32_t triangle, std::span<const glm::dve
 
 std::optional<std::uint32_t> RayScene::exit_triangle(std::uint32_t welded, const glm::dvec3& direction,
                                                      std::span<const std::uint8_t> dark) const {
-    RayHits found;
-    triangles_.crossings(mesh_.positions()[welded], direction, hit_tolerance, found);
-    if (found.overflowed) return std::nullopt;  // a mesh so tangled gives no answer
+    constexpr float unlimited = std::numeric_limits<float>::infinity();
     const auto own = mesh_.triangles_at(welded);
-    std::array<Crossing, RayHits::max_count> crossings;
+    std::array<Crossing, max_crossings> crossings;
     std::size_t count = 0;
-    for (const auto& [distance, triangle] : std::span(found.hits).first(found.count)) {
+    float first_entry = unlimited;
+    float limit = unlimited;  // what is nearer has been seen
+    bool hopeful = true;
+    const HitVisitor visitor = [&](float distance, std::uint32_t triangle) {
         // A ray meets the triangles of the vertex it starts from nowhere else: such a hit is a rounding error.
-        if (std::binary_search(own.begin(), own.end(), triangle)) continue;
-        if (!dark.empty() && dark[triangle] != 0) continue;
+        if (std::binary_search(own.begin(), own.end(), triangle)) return unlimited;
+        if (!dark.empty() && dark[triangle] != 0) return unlimited;
         const double cosine = glm::dot(direction, mesh_.triangles()[triangle].unit_normal);
-        if (cosine != 0.0) crossings[count++] = {distance, triangle, cosine > 0.0};
+        if (cosine == 0.0 || count == max_crossings) return unlimited;
+        crossings[count++] = {distance, triangle, cosine > 0.0};
+        const float end = distance + hit_tolerance;
+        if (cosine < 0.0) first_entry = std::min(first_entry, distance);
+        if (cosine < 0.0 || !hopeful || first_entry <= end) return unlimited;
+        limit = std::min(limit, end);
+        return end;
+    };
+    // Mostly the first surface is the way out. Where the ray enters another body before, one look to its end tells.
+    triangles_.visit(mesh_.positions()[welded], direction, hit_tolerance, visitor);
+    if (first_entry <= limit && limit < unlimited) {
+        count = 0;
+        hopeful = false;
+        triangles_.visit(mesh_.positions()[welded], direction, hit_tolerance, visitor);
     }
-    std::sort(crossings.begin(), crossings.begin() + static_cast<std::ptrdiff_t>(count),
-              [](const Crossing& a, const Crossing& b) {
-                  return a.distance < b.distance || (a.distance == b.distance && a.triangle < b.triangle);
-              });
-    return first_way_out(std::span(crossings).first(count), mesh_);
+    if (count == max_crossings) return std::nullopt;  // a mesh so tangled gives no answer
+    const std::span found = std::span(crossings).first(count);
+    std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
+        return a.distance < b.distance || (a.distance == b.distance && a.triangle < b.triangle);
+    });
+    return first_way_out(found, mesh_);
 }
 
 }  // namespace skinglow::detail
