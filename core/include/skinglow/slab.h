@@ -89,7 +89,7 @@ class VariableLayer;
 
 /// Transmittance of a stack of layers in which one layer takes any thickness and the others keep theirs. The
 /// transport problem of each layer is solved once, on construction; a thickness then costs a small solve of
-/// as many unknowns as modes still reach through the layer. Copies share what was solved; safe to use from
+/// as many unknowns as modes still carry light through the layer. Copies share what was solved; safe to use from
 /// many threads at once.
 class ThicknessCurve {
   public:

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-/// Human skin as plane layers: epidermis / dermis / epidermis, as at an ear. What is modelled, every constant
+/// Human skin as plane layers: epidermis / dermis / epidermis, as at an ear. What is modeled, every constant
 /// and where it comes from: docs/optics.md. Wavelengths nm, thicknesses mm, coefficients 1/mm.
 /// @code
 /// const skinglow::Tissue& skin = skinglow::tissue_preset("light").tissue;

@@ -78,8 +78,8 @@ struct ReducedScattering {
 constexpr ReducedScattering epidermal_scattering{66.7, 0.29, 0.689};
 constexpr ReducedScattering dermal_scattering{43.6, 0.41, 0.562};
 
-/// Through the values at 450, 500, 600 and 700 nm of the project's optics notes (docs/optics.md), straight on
-/// beyond.
+/// Through the values at 450, 500, 600 and 700 nm of the project's optics notes (docs/optics.md), linear
+/// between and beyond.
 double epidermal_anisotropy(double wavelength_nm) {
     constexpr std::array<double, 4> nm{450.0, 500.0, 600.0, 700.0};
     constexpr std::array<double, 4> g{0.730, 0.745, 0.774, 0.804};
@@ -170,9 +170,9 @@ double blood_absorption(double wavelength_nm, double oxygen_saturation) {
     constexpr double step_nm = 2.0;
     static_assert(tables::hemoglobin[0][0] == min_wavelength_nm && tables::hemoglobin[1][0] == 382.0);
     static_assert(tables::hemoglobin[std::size(tables::hemoglobin) - 1][0] == max_wavelength_nm);
-    const double place = (wavelength_nm - min_wavelength_nm) / step_nm;
-    const auto i = std::min(static_cast<std::size_t>(place), std::size(tables::hemoglobin) - 2);
-    const double t = place - static_cast<double>(i);
+    const double entry = (wavelength_nm - min_wavelength_nm) / step_nm;
+    const auto i = std::min(static_cast<std::size_t>(entry), std::size(tables::hemoglobin) - 2);
+    const double t = entry - static_cast<double>(i);
     const auto extinction = [&](std::size_t row) {
         return oxygen_saturation * tables::hemoglobin[row][1] +
                (1.0 - oxygen_saturation) * tables::hemoglobin[row][2];

@@ -12,7 +12,7 @@ AngularBasis::AngularBasis(Eigen::VectorXd cosine_, const Eigen::VectorXd& weigh
     odd.resize(n, n);
     recurrence.resize(2 * n - 1);
     even.col(0) = (weight / weight_sum).cwiseSqrt();
-    // The three-term recurrence alone loses orthogonality at high degree: each polynomial is orthogonalised
+    // The three-term recurrence alone loses orthogonality at high degree: each polynomial is orthogonalized
     // against all before it of its own parity, twice ("twice is enough", Giraud et al. 2005, Numer Math
     // 101:87).
     for (Eigen::Index degree = 1; degree < 2 * n; ++degree) {

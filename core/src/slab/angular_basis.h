@@ -22,7 +22,8 @@ struct AngularBasis {
     Eigen::VectorXd recurrence;
     double weight_sum = 1;  ///< of the rule before normalization; 1 but for its error
 
-    /// @param cosine, weight of the rule on one hemisphere.
+    /// @param cosine the rule's nodes on one hemisphere
+    /// @param weight the rule's weights
     AngularBasis(Eigen::VectorXd cosine, const Eigen::VectorXd& weight);
 };
 

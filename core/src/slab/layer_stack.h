@@ -29,7 +29,7 @@ class LayerStack {
     std::vector<double> absorbed(const Eigen::VectorXd& downward) const;
 
   private:
-    struct Level {
+    struct Part {
         std::optional<Eigen::MatrixXd> into;     // across the upper boundary; none: indices are equal
         std::optional<Eigen::MatrixXd> through;  // across the layer; none: it is empty
         Eigen::MatrixXd reflection_top;          // of the layer and all below it, under its upper boundary
@@ -37,7 +37,7 @@ class LayerStack {
         std::shared_ptr<const LayerModes> modes;
         double thickness = 0;
     };
-    std::vector<Level> levels_;
+    std::vector<Part> parts_;
     Eigen::MatrixXd out_;  // across the lowest boundary
     Eigen::MatrixXd reflection_;
     bool closed_ = false;  // a half-space ends the stack: nothing leaves below

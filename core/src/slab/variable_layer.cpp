@@ -35,14 +35,14 @@ bool is_mirror_image(std::span<const Layer> layers, std::size_t variable, double
 // A neighbor of the layer, as its modes see it.
 struct Neighbor {
     Eigen::MatrixXd load;
-    Eigen::MatrixXd
-        image;  // its transpose turns amplitudes that meet the neighbor into modes without the load
+    /// (1 + R)^-1 shape: its transpose turns amplitudes that meet the neighbor into modal excitations.
+    Eigen::MatrixXd image;
 
     Neighbor() = default;
     Neighbor(const LayerModes& modes, const Eigen::MatrixXd& reflection) {
         const Eigen::Index n = reflection.rows();
         const Eigen::PartialPivLU<Eigen::MatrixXd> solver(Eigen::MatrixXd::Identity(n, n) + reflection);
-        image = solver.solve(modes.shape);  // (1 + R)^-1 shape
+        image = solver.solve(modes.shape);
         load.noalias() = modes.shape.transpose() * (image - reflection * image);
         load = (0.5 * (load + load.transpose())).eval();  // symmetric by reciprocity; now in the last digit
     }

@@ -12,7 +12,7 @@ namespace skinglow::detail {
 
 class StreamGrid;
 
-/// A layer between two reflectors, on the modes that still reach through it. With a the modal coefficients of
+/// A layer between two reflectors, on the modes that still carry light through it. With a the modal coefficients of
 /// the sum of downward and upward light (layer_modes.h), the equations at the top and the bottom face are
 ///   (C + load_above) a_top - H a_bottom = source,   (C + load_below) a_bottom - H a_top = 0,
 /// C = diag(k coth(k d)), H = diag(k / sinh(k d)), d the thickness, and T = receiver . a_bottom.
@@ -27,7 +27,7 @@ struct ModeProblem {
 /// The layer whose thickness varies, and what its two neighbors do to its modes.
 ///
 /// A neighbor that reflects R turns t into -H s with H = (1 - R)(1 + R)^-1; in modes, b = source -
-/// load_above a at the top and b = load_below a at the bottom. A mode that no longer reaches through the
+/// load_above a at the top and b = load_below a at the bottom. A mode that no longer carries light through the
 /// layer has a fixed part in this, so that it can be eliminated beforehand: problem number i has the modes
 /// from first_mode[i] on.
 class VariableLayer {

@@ -85,9 +85,9 @@ TEST(Spectrum, BlackBodyPeaksWhereWienSays) {
 }
 
 TEST(Spectrum, ColorHasLuminanceOne) {
-    for (const Spectrum& lamp :
+    for (const Spectrum& light :
          {blackbody_spectrum(2700.0), line_spectrum(630.0, 20.0), line_spectrum(455.0, 20.0)}) {
-        const glm::dvec3 rgb = spectral_color(lamp);
+        const glm::dvec3 rgb = spectral_color(light);
         EXPECT_NEAR(0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z, 1.0, 2e-3);
     }
 }
@@ -109,11 +109,11 @@ TEST(Spectrum, LineKeepsItsPowerAndPlace) {
 TEST(Spectrum, TabulatedLampIsIntegratedAgainstStraightPiecesExactly) {
     // Uneven wavelengths, against the ramp nm - 380: both integrals by hand.
     const std::vector<double> nm{300.0, 401.0, 402.5, 437.0, 900.0}, power{2.0, 2.0, 5.0, 0.0, 0.0};
-    const Spectrum lamp = tabulated_spectrum(nm, power);
+    const Spectrum light = tabulated_spectrum(nm, power);
     double total = 0.0, ramp = 0.0;
     for (std::size_t k = 0; k < spectral_samples; ++k) {
-        total += lamp[k] * sample_step_nm;
-        ramp += lamp[k] * sample_step_nm * (sample_wavelength_nm(k) - 380.0);
+        total += light[k] * sample_step_nm;
+        ramp += light[k] * sample_step_nm * (sample_wavelength_nm(k) - 380.0);
     }
     EXPECT_NEAR(total, 21.0 * 2.0 + 1.5 * 3.5 + 34.5 * 2.5, 1e-10);
     const double trapezoid = 1.5 * (2.0 * 21.0 + 5.0 * 22.5 + 4.0 * 3.5 * 21.75) / 6.0;
@@ -127,8 +127,8 @@ TEST(Spectrum, TabulatedOnTheGridIsItselfAwayFromItsEnds) {
         nm.push_back(sample_wavelength_nm(k));
         power.push_back(10.0 + 3.0 * static_cast<double>(k));
     }
-    const Spectrum lamp = tabulated_spectrum(nm, power);
-    for (std::size_t k = 1; k + 1 < spectral_samples; ++k) EXPECT_NEAR(lamp[k], power[k], 1e-10);
+    const Spectrum light = tabulated_spectrum(nm, power);
+    for (std::size_t k = 1; k + 1 < spectral_samples; ++k) EXPECT_NEAR(light[k], power[k], 1e-10);
 }
 
 TEST(Spectrum, RefusesWhatItCannotUse) {

@@ -38,8 +38,8 @@ class Random {
         return layer;
     }
 
-    std::vector<Layer> stack(std::size_t most) {
-        std::vector<Layer> layers(1 + below(most));
+    std::vector<Layer> stack(std::size_t max_count) {
+        std::vector<Layer> layers(1 + below(max_count));
         std::generate(layers.begin(), layers.end(), [&] { return layer(); });
         return layers;
     }

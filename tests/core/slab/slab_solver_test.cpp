@@ -192,7 +192,7 @@ TEST(SlabSolver, thick_slab_without_absorption) {
 
 TEST(SlabSolver, absorption_of_1e_12_is_seen) {
     // Lit from both sides, a slab that does not absorb holds the same light everywhere, n^2 times that
-    // outside; from one side, half of it. Its absorption is that light times 4 b, but for the share lost, of
+    // outside; from one side, half of it. Its absorption is that light times 4 b, but for the fraction lost, of
     // order b^2 (1 - a).
     for (const double lost : {1e-14, 1e-12, 1e-10}) {
         const Layer layer{1.4, lost, 1, 0.5, 100};
