@@ -1,8 +1,9 @@
 #pragma once
 
+#include <skinglow/mesh.h>
+
 #include <functional>
 #include <numbers>
-#include <skinglow/mesh.h>
 #include <stdexcept>
 #include <vector>
 
