@@ -65,7 +65,8 @@ void def_shape_fields(LightClass& light) {
     for_each_field_of(usual, [&](const auto& field, const auto& /*owner*/) {
         light.def_property_readonly(std::string(field.key).c_str(), [key = field.key](const Light& self) {
             py::object found;
-            for_each_field_of(Shape{}, [&](const auto& f, const auto& owner) {
+            const Shape usual_shape{};
+            for_each_field_of(usual_shape, [&](const auto& f, const auto& owner) {
                 if (f.key == key) found = to_python(owner.*f.member);
             });
             for_each_field(self.settings(), [&](const auto& f, const auto& owner) {

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <skinglow/box.h>
-
 #include <glm/vec3.hpp>
 #include <optional>
+#include <skinglow/box.h>
 #include <span>
 #include <string_view>
 #include <vector>

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <skinglow/mesh.h>
-
 #include <functional>
 #include <numbers>
+#include <skinglow/mesh.h>
 #include <stdexcept>
 #include <vector>
 

@@ -50,6 +50,51 @@ TEST(LightBounds, HoldForEveryPointAndNormal) {
     }
 }
 
+TEST(LightBounds, HoldWhereALightStandsOnTheBox) {
+    RandomScene random(18);
+    int on_box = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        FlatLight light = random.light();
+        light.power = 1;
+        light.color = glm::dvec3(1.0);
+        if (random.one_in(2)) light.size_x = light.size_y = light.radius = 0.0;
+        const Box box = random_box(random);
+        // A corner, or an edge, a face or the inside.
+        for (int axis = 0; axis < 3; ++axis) {
+            light.position[axis] = random.one_in(2) ? box.min[axis] : box.max[axis];
+            if (random.one_in(6)) light.position[axis] = random.between(box.min[axis], box.max[axis]);
+        }
+        const glm::dvec3 near =
+            glm::clamp(light.position + random.unit_vector() * random.decades(1e-9, 1e-3), box.min, box.max);
+        const double max = irradiance_range(PreparedLight(light), box).max;
+        const CullingResult result = PreparedRig({light}).cull(box, 1e300);
+        for (const glm::dvec3& point : {light.position, near}) {
+            const double facing = object_irradiance({light}, point).r;
+            on_box += facing > 0.0 ? 1 : 0;
+            EXPECT_LE(facing, max) << to_text(light.kind) << " " << trial;
+            EXPECT_LE(facing, result.bound.r) << to_text(light.kind) << " " << trial;
+        }
+        // In a tree of two, whose node must hold the bound too.
+        FlatLight other = light;
+        other.position += light.direction;
+        EXPECT_LE(object_irradiance({light, other}, light.position).r,
+                  PreparedRig({light, other}).cull(box, 1e300).bound.r * (1 + 1e-12))
+            << to_text(light.kind) << " " << trial;
+    }
+    EXPECT_GT(on_box, 2000);
+}
+
+TEST(LightBounds, ASpotOnTheCornerReachesIt) {
+    // Shines away from the box; the corner itself is at its position, on its axis.
+    FlatLight spot;
+    spot.kind = LightKind::spot;
+    spot.position = {1, 1, 1};
+    spot.direction = {1, 1, 1};
+    const Box box{glm::dvec3(0.0), glm::dvec3(1.0)};
+    EXPECT_GT(object_irradiance({spot}, spot.position).r, 1e10);
+    EXPECT_GE(PreparedRig({spot}).cull(box, 1e300).bound.r, object_irradiance({spot}, spot.position).r);
+}
+
 TEST(LightBounds, AreTightForSmallObjects) {
     RandomScene random(12);
     int tight = 0;
@@ -186,4 +231,28 @@ TEST(LightCulling, IdenticalLampsBecomeOne) {
     const glm::dvec3 all = object_irradiance(lights, point);
     const glm::dvec3 few = object_irradiance(merged, point);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(few[c], all[c], 1e-11 * (std::abs(all[c]) + 1));
+}
+
+TEST(LightCulling, MergesByWhatTheKindHas) {
+    std::vector<FlatLight> suns(3);
+    for (FlatLight& sun : suns) sun.kind = LightKind::sun;
+    suns[1].position = {5, 5, 5};  // a sun has no position
+    suns[1].spread = 1.0;          // nor a spread
+    suns[2].sun_angle = 0.5;
+    const std::vector<Light> merged = merge_identical(made(suns));
+    ASSERT_EQ(merged.size(), 2U);
+    EXPECT_EQ(merged[0].power(), 2.0);
+    EXPECT_EQ(std::get<SunLight>(merged[1].shape()).sun_angle, 0.5);
+
+    std::vector<FlatLight> points(4);
+    points[1].direction = {1, 0, 0};  // a point shines to all sides
+    points[2].radius = 0.1;
+    points[3].soft_falloff = false;
+    EXPECT_EQ(merge_identical(made(points)).size(), 3U);
+
+    std::vector<FlatLight> areas(3);
+    for (FlatLight& area : areas) area.kind = LightKind::area;
+    areas[1].area_shape = AreaShape::ellipse;
+    areas[2].tangent = {0, 1, 0};
+    EXPECT_EQ(merge_identical(made(areas)).size(), 3U);
 }

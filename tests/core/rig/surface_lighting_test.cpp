@@ -133,6 +133,25 @@ TEST(SurfaceLighting, LampsBeyondTheTermsShineFromFarAway) {
     EXPECT_LT(largest_difference(made(lights), lighting, random), 0.06);
 }
 
+TEST(SurfaceLighting, NegativeLightsBeyondTheTermsTakeLightAway) {
+    // Eight bright lights have the terms; seven that nearly undo them are in the polynomial.
+    std::vector<FlatLight> lights(15);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        lights[i].position = {0.01 * static_cast<double>(i), 0.0, 3.0};
+        lights[i].power = i < 8 ? 10.0 : -9.9;
+    }
+    const SurfaceLighting lighting(made(lights), head, {.max_terms = 8});
+    ASSERT_EQ(lighting.far_lights().size(), 7U);
+    const double truth = exact(made(lights), glm::dvec3(0.0), {0, 0, 1}).r;
+    const double bright = exact(made({lights.begin(), lights.begin() + 8}), glm::dvec3(0.0), {0, 0, 1}).r;
+    // By nine harmonics a light is off by some hundredths of its own.
+    EXPECT_NEAR(lighting.irradiance(glm::dvec3(0.0), {0, 0, 1}).r, truth, 0.1 * bright);
+    // What is shown is never below 0.
+    lights[14].power = -100.0;
+    const SurfaceLighting dark(made(lights), head, {.max_terms = 8});
+    EXPECT_EQ(dark.irradiance(glm::dvec3(0.0), {0, 0, 1}).r, 0.0);
+}
+
 TEST(SurfaceLighting, TheWorldIsAsTheEnvironmentSays) {
     RandomScene random(7);
     std::array<glm::dvec3, 9> harmonics{};
