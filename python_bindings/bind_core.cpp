@@ -1,5 +1,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <skinglow/light_weights.h>
 #include <skinglow/lut.h>
 
 #include <string>
