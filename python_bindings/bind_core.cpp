@@ -1,11 +1,11 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <skinglow/light_weights.h>
 #include <skinglow/lut.h>
 
 #include <string>
 #include <vector>
 
-#include "light/light_weights.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
 
@@ -58,9 +58,11 @@ coefficients  (k_c, k_l, k_q), finite, 0 or more
 Returns a float or an array of the same shape. Raises ValueError on anything else.)");
     m.def(
         "light_weights",
-        [](const std::vector<Light>& lights, py::handle point, py::handle coefficients) {
-            return numpy::from_vec3s(
-                light_weights(lights, numpy::to_vec3(point, "point"), to_coefficients(coefficients)));
+        [](py::handle lights, py::handle point, py::handle coefficients) {
+            const PreparedRig rig = numpy::to_rig(lights);
+            const glm::dvec3 at = numpy::to_vec3(point, "point");
+            const AttenuationCoefficients k = to_coefficients(coefficients);
+            return numpy::from_vec3s(numpy::without_gil([&] { return light_weights(rig.lights(), at, k); }));
         },
         "lights"_a, "point"_a, "coefficients"_a = py::make_tuple(1.0, 0.0, 1.0),
         R"(Each light's term of Eq. 3, color * attenuation(distance to point), shape (n, 3), linear Rec.709.
@@ -69,9 +71,11 @@ A sun has no distance: its attenuation is 1. A light that is off (hidden, power 
 point  (3,), in the scene's length unit. Raises ValueError naming what is wrong.)");
     m.def(
         "light_weight",
-        [](const std::vector<Light>& lights, py::handle point, py::handle coefficients) {
-            return numpy::from_vec3(
-                light_weight(lights, numpy::to_vec3(point, "point"), to_coefficients(coefficients)));
+        [](py::handle lights, py::handle point, py::handle coefficients) {
+            const PreparedRig rig = numpy::to_rig(lights);
+            const glm::dvec3 at = numpy::to_vec3(point, "point");
+            const AttenuationCoefficients k = to_coefficients(coefficients);
+            return numpy::from_vec3(numpy::without_gil([&] { return light_weight(rig.lights(), at, k); }));
         },
         "lights"_a, "point"_a, "coefficients"_a = py::make_tuple(1.0, 0.0, 1.0),
         R"(Eq. 3, the sum of light_weights, shape (3,); zeros without lights.

@@ -1,4 +1,5 @@
 #include <pybind11/pybind11.h>
+#include <skinglow/environment.h>
 
 #include <algorithm>
 #include <glm/matrix.hpp>
@@ -6,10 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "geometry/vector.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
-#include <skinglow/environment.h>
-#include "radiometry/prepared_light.h"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -34,18 +34,23 @@ Environment make_environment(py::handle radiance) {
     }
     const auto height = static_cast<std::size_t>(values.shape(0));
     const auto width = static_cast<std::size_t>(values.shape(1));
+    const py::gil_scoped_release release;
     return Environment::from_equirectangular(
         {reinterpret_cast<const glm::dvec3*>(values.data()), height * width}, width, height);
 }
 
 py::array environment_irradiance(const Environment& self, py::handle normals,
                                  const AngularWeight* angular_weight) {
-    std::vector<glm::dvec3> result;
-    for (const glm::dvec3& n : numpy::to_vec3s(normals, "normals")) {
-        require_finite("normals", n);
-        result.push_back(n == glm::dvec3(0.0) ? n : self.irradiance(unit(n), angular_weight));
-    }
-    return numpy::from_vec3s(std::move(result));
+    const std::vector<glm::dvec3> directions = numpy::to_vec3s(normals, "normals");
+    return numpy::from_vec3s(numpy::without_gil([&] {
+        std::vector<glm::dvec3> result;
+        result.reserve(directions.size());
+        for (const glm::dvec3& n : directions) {
+            require_finite("normals", n);
+            result.push_back(n == glm::dvec3(0.0) ? n : self.irradiance(unit(n), angular_weight));
+        }
+        return result;
+    }));
 }
 
 Environment environment_of_image(const Pixels& pixels, const std::string& projection, bool bottom_first) {
@@ -83,7 +88,7 @@ void bind_environment(py::module_& m) {
 
 radiance  (3,) constant, W/(m^2 sr), 0 or more; or (9, 3) coefficients, orthonormal, order l, m; or an equirectangular
           image (height, width, 3), row 0 looking up to +z, columns as in Blender (the middle looks along +x, a quarter
-          from the left along +y). Blender's own pixels start at the bottom: turn them over.)")
+          from the left along +y). Blender's own pixels start at the bottom: flip them.)")
         .def(py::init(&make_environment), "radiance"_a)
         .def_static("from_image", &environment_of_image, "pixels"_a, py::kw_only(),
                     "projection"_a = "EQUIRECTANGULAR", "bottom_first"_a = false,

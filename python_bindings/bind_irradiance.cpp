@@ -1,30 +1,33 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <skinglow/angular_weight.h>
+#include <skinglow/environment.h>
+#include <skinglow/light.h>
+#include <skinglow/rig.h>
 
 #include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "light/light_units.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
-#include <skinglow/environment.h>
-#include "radiometry/prepared_light.h"
-#include "rig/irradiance.h"
-#include "rig/surface_irradiance.h"
 
 namespace py = pybind11;
 using namespace py::literals;
 using namespace skinglow;
+using skinglow::numpy::without_gil;
 
 namespace {
 
 void bind_object_weights(py::module_& m) {
     m.def(
-        "irradiances",
-        [](const std::vector<Light>& lights, py::handle point, double tolerance) {
-            return numpy::from_vec3s(object_irradiances(lights, numpy::to_vec3(point, "point"), tolerance));
+        "object_irradiance_by_light",
+        [](py::handle lights, py::handle point, double tolerance) {
+            const PreparedRig rig = numpy::to_rig(lights);
+            const glm::dvec3 at = numpy::to_vec3(point, "point");
+            return numpy::from_vec3s(
+                without_gil([&] { return object_irradiance_by_light(rig, at, tolerance); }));
         },
         "lights"_a, "point"_a, "tolerance"_a = default_area_tolerance,
         R"(What each light brings to a point on a surface that faces it, shape (n, 3), W/m^2, linear Rec.709.
@@ -32,15 +35,18 @@ void bind_object_weights(py::module_& m) {
 Units are Blender's, a unit of length is a meter: a point light of P watts gives P / (4 pi d^2), a spot the same times
 its cone, a sun P, an area light the irradiance of its shape at radiance P / (pi A). Lights that are off give zeros,
 negative power takes light away. No light is nearer than 1e-6.
+lights     sequence of Light, or a PreparedRig
 point      (3,), world
-tolerance  relative, of the integrals for elliptic lamps, above 0. Raises ValueError naming what is wrong.)");
+tolerance  relative, of the integrals for elliptic lights, above 0. Raises ValueError naming what is wrong.)");
     m.def(
-        "irradiance",
-        [](const std::vector<Light>& lights, py::handle point, double tolerance) {
-            return numpy::from_vec3(object_irradiance(lights, numpy::to_vec3(point, "point"), tolerance));
+        "object_irradiance",
+        [](py::handle lights, py::handle point, double tolerance) {
+            const PreparedRig rig = numpy::to_rig(lights);
+            const glm::dvec3 at = numpy::to_vec3(point, "point");
+            return numpy::from_vec3(without_gil([&] { return object_irradiance(rig, at, tolerance); }));
         },
         "lights"_a, "point"_a, "tolerance"_a = default_area_tolerance,
-        R"(The sum of irradiances, shape (3,): E of mode `physical` for a whole object; zeros without lights.
+        R"(The sum of object_irradiance_by_light, shape (3,): E of mode `physical` for a whole object; zeros without lights.
 
 The order of the lights does not matter beyond the last bits: the sum is compensated.)");
 }
@@ -64,15 +70,24 @@ std::span<const double> view_of_doubles(const numpy::Array& array, std::string_v
 AngularWeight make_angular_weight(py::handle mu, py::handle transmittance) {
     const numpy::Array cosines = numpy::to_array(mu, "mu");
     const numpy::Array values = numpy::to_array(transmittance, "transmittance");
-    if (values.ndim() == 2) return {view_of_doubles(cosines, "mu"), view_of_vec3s(values, "transmittance")};
-    return {view_of_doubles(cosines, "mu"), view_of_doubles(values, "transmittance")};
+    const std::span<const double> cos_angles = view_of_doubles(cosines, "mu");
+    if (values.ndim() == 2) {
+        const Vec3s rows = view_of_vec3s(values, "transmittance");
+        return without_gil([&] { return AngularWeight(cos_angles, rows); });
+    }
+    const std::span<const double> gray = view_of_doubles(values, "transmittance");
+    return without_gil([&] { return AngularWeight(cos_angles, gray); });
 }
 
 py::array angular_weight_at(const AngularWeight& self, py::handle mu) {
     const numpy::Array cosines = numpy::to_array(mu, "mu");
-    std::vector<glm::dvec3> weights;
-    for (const double x : view_of_doubles(cosines, "mu")) weights.push_back(self.at(require_finite("mu", x)));
-    return numpy::from_vec3s(std::move(weights));
+    const std::span<const double> values = view_of_doubles(cosines, "mu");
+    return numpy::from_vec3s(without_gil([&] {
+        std::vector<glm::dvec3> weights;
+        weights.reserve(values.size());
+        for (const double x : values) weights.push_back(self.at(require_finite("mu", x)));
+        return weights;
+    }));
 }
 
 void bind_angular_weight(py::module_& m) {
@@ -87,44 +102,38 @@ Raises ValueError naming the entry.)")
         .def("at", &angular_weight_at, "mu"_a, "w at cosines (n,) or one, clamped to 0 to 1; shape (n, 3).");
 }
 
-SurfaceOptions surface_options(double tolerance, const AngularWeight* angular_weight,
-                               const Environment* environment, int threads) {
-    return {tolerance, angular_weight, environment, threads};
-}
-
 void bind_surface_weights(py::module_& m) {
     m.def(
         "surface_irradiance",
-        [](const std::vector<Light>& lights, py::handle points, py::handle normals,
-           const AngularWeight* angular_weight, const Environment* environment, double tolerance,
-           int threads) {
-            const numpy::Array places = numpy::to_array(points, "points");
-            const numpy::Array directions = numpy::to_array(normals, "normals");
-            const Vec3s p = view_of_vec3s(places, "points");
-            const Vec3s n = view_of_vec3s(directions, "normals");
-            std::vector<glm::dvec3> result;
-            {
-                const py::gil_scoped_release release;
-                result = surface_irradiance(lights, p, n,
-                                            surface_options(tolerance, angular_weight, environment, threads));
-            }
-            return numpy::from_vec3s(std::move(result));
+        [](py::handle lights, py::handle points, py::handle normals, const AngularWeight* angular_weight,
+           const Environment* environment, double tolerance, int threads) {
+            const PreparedRig rig = numpy::to_rig(lights);
+            const numpy::Array point_array = numpy::to_array(points, "points");
+            const numpy::Array normal_array = numpy::to_array(normals, "normals");
+            const Vec3s p = view_of_vec3s(point_array, "points");
+            const Vec3s n = view_of_vec3s(normal_array, "normals");
+            return numpy::from_vec3s(without_gil([&] {
+                return surface_irradiance(rig, p, n, {tolerance, angular_weight, environment, threads});
+            }));
         },
         "lights"_a, "points"_a, "normals"_a, py::kw_only(), "angular_weight"_a = py::none(),
         "environment"_a = py::none(), "tolerance"_a = default_area_tolerance, "threads"_a = 0,
-        R"(Irradiance at places that each face along a normal, with cosine and horizon, (n, 3), W/m^2, linear Rec.709.
+        R"(Irradiance at points that each face along a normal, with cosine and horizon, (n, 3), W/m^2, linear Rec.709.
 
+lights           sequence of Light, or a PreparedRig
 points, normals  (n, 3), finite; normals of any length, (0, 0, 0) receives nothing
-tolerance        relative, of the integrals for elliptic lamps and spreads
+tolerance        relative, of the integrals for elliptic lights and spreads
 threads          0: one for each processor. Raises ValueError naming the entry.)");
     m.def(
         "far_side",
         [](py::handle vertices, py::handle normals, py::handle depth) {
-            const numpy::Array places = numpy::to_array(vertices, "vertices");
-            const numpy::Array directions = numpy::to_array(normals, "normals");
+            const numpy::Array vertex_array = numpy::to_array(vertices, "vertices");
+            const numpy::Array normal_array = numpy::to_array(normals, "normals");
             const numpy::Array depths = numpy::to_array(depth, "depth");
-            Places far = far_side(view_of_vec3s(places, "vertices"), view_of_vec3s(directions, "normals"),
-                                  view_of_doubles(depths, "depth"));
+            const Vec3s p = view_of_vec3s(vertex_array, "vertices");
+            const Vec3s n = view_of_vec3s(normal_array, "normals");
+            const std::span<const double> d = view_of_doubles(depths, "depth");
+            SurfacePoints far = without_gil([&] { return far_side(p, n, d); });
             return py::make_tuple(numpy::from_vec3s(std::move(far.points)),
                                   numpy::from_vec3s(std::move(far.normals)));
         },
@@ -135,22 +144,19 @@ vertices, normals  (n, 3), finite; a normal of (0, 0, 0) stays, and its point is
 depth              d, (n,) or one for all, in the vertices' unit, 0 or more. Raises ValueError naming the entry.)");
     m.def(
         "far_side_irradiance",
-        [](const std::vector<Light>& lights, py::handle vertices, py::handle normals, py::handle depth,
+        [](py::handle lights, py::handle vertices, py::handle normals, py::handle depth,
            const AngularWeight* angular_weight, const Environment* environment, double tolerance,
            int threads) {
-            const numpy::Array places = numpy::to_array(vertices, "vertices");
-            const numpy::Array directions = numpy::to_array(normals, "normals");
+            const PreparedRig rig = numpy::to_rig(lights);
+            const numpy::Array vertex_array = numpy::to_array(vertices, "vertices");
+            const numpy::Array normal_array = numpy::to_array(normals, "normals");
             const numpy::Array depths = numpy::to_array(depth, "depth");
-            const Vec3s p = view_of_vec3s(places, "vertices");
-            const Vec3s n = view_of_vec3s(directions, "normals");
+            const Vec3s p = view_of_vec3s(vertex_array, "vertices");
+            const Vec3s n = view_of_vec3s(normal_array, "normals");
             const std::span<const double> d = view_of_doubles(depths, "depth");
-            std::vector<glm::dvec3> result;
-            {
-                const py::gil_scoped_release release;
-                result = far_side_irradiance(
-                    lights, p, n, d, surface_options(tolerance, angular_weight, environment, threads));
-            }
-            return numpy::from_vec3s(std::move(result));
+            return numpy::from_vec3s(without_gil([&] {
+                return far_side_irradiance(rig, p, n, d, {tolerance, angular_weight, environment, threads});
+            }));
         },
         "lights"_a, "vertices"_a, "normals"_a, "depth"_a, py::kw_only(), "angular_weight"_a = py::none(),
         "environment"_a = py::none(), "tolerance"_a = default_area_tolerance, "threads"_a = 0,

@@ -39,18 +39,19 @@ std::unique_ptr<Occluders> make_occluders(const py::iterable& meshes, py::handle
     return std::make_unique<Occluders>(views, about);
 }
 
-py::tuple visible_fraction_of_arrays(const Occluders& self, const std::vector<Light>& lights,
-                                     py::handle points, py::handle normals, int samples,
-                                     std::vector<std::size_t> excluded, int threads) {
+py::tuple visible_fraction_of_arrays(const Occluders& self, py::handle lights, py::handle points,
+                                     py::handle normals, int samples, std::vector<std::size_t> excluded,
+                                     int threads) {
+    const PreparedRig rig = numpy::to_rig(lights);
     const std::vector<glm::dvec3> positions = numpy::to_vec3s(points, "points");
     const std::vector<glm::dvec3> facing = numpy::to_vec3s(normals, "normals");
     VisibleFraction found;
     {
         const py::gil_scoped_release unlocked;
-        found = visible_fraction(self, lights, positions, facing, {samples, std::move(excluded), threads});
+        found = visible_fraction(self, rig, positions, facing, {samples, std::move(excluded), threads});
     }
     py::array rows = numpy::from_doubles(std::move(found.at_points));
-    rows = rows.attr("reshape")(positions.size(), lights.size());
+    rows = rows.attr("reshape")(positions.size(), rig.size());
     return py::make_tuple(numpy::from_doubles(std::move(found.mean)), rows);
 }
 
@@ -62,8 +63,9 @@ void bind_occlusion(py::module_& m) {
         .def(py::init(&make_occluders), "meshes"_a, "origin"_a)
         .def_property_readonly("triangles", &Occluders::triangles, "Triangles with area.")
         .def("__len__", &Occluders::meshes)
-        .def("visible_fraction", &visible_fraction_of_arrays, "lights"_a, "points"_a, "normals"_a, "samples"_a,
-             "excluded"_a, "threads"_a, "See skinglow.Occluders.visible_fraction: (mean, at_points).");
+        .def("visible_fraction", &visible_fraction_of_arrays, "lights"_a, "points"_a, "normals"_a,
+             "samples"_a, "excluded"_a, "threads"_a,
+             "See skinglow.Occluders.visible_fraction: (mean, at_points).");
 }
 
 }  // namespace skinglow

@@ -30,11 +30,12 @@ FoundRig read_any(const std::filesystem::path& path, py::handle camera_rotation)
         refuse_argument("camera_rotation", "given for " + path.string(),
                         "it with a studio light (*.sl) only");
     }
+    const glm::dmat3 camera = camera_rotation.is_none()
+                                  ? front_view
+                                  : camera_axes(numpy::to_vec3(camera_rotation, "camera_rotation"));
+    const py::gil_scoped_release release;
     try {
         if (!studio_light) return {read_light_rig(path), {}};
-        const glm::dmat3 camera = camera_rotation.is_none()
-                                      ? front_view
-                                      : camera_axes(numpy::to_vec3(camera_rotation, "camera_rotation"));
         StudioLight studio = read_studio_light(path, camera);
         LightRig rig;
         rig.name = path.stem().string();
@@ -48,14 +49,14 @@ FoundRig read_any(const std::filesystem::path& path, py::handle camera_rotation)
 }  // namespace
 
 void bind_rig(py::module_& m) {
-    py::class_<FoundRig>(m, "LightRig", R"(Lamps around a point of skin, as `read_light_rig` found them.
+    py::class_<FoundRig>(m, "LightRig", R"(Lights around a point of skin, as `read_light_rig` found them.
 
 name          of the rig; "" where the file gives none
 point         (3,) where distances are measured from, world
 coefficients  (3,) constant, linear and quadratic of Eq. 2
 blood_weight  (3,) B of Eq. 1
 lights        [Light]
-notes         [str] what the file holds and no lamp can: a studio light's ambient light, soft wrap, highlights)")
+notes         [str] what the file holds and no light can: a studio light's ambient light, soft wrap, highlights)")
         .def_property_readonly("name", [](const FoundRig& self) { return self.rig.name; })
         .def_property_readonly("point", [](const FoundRig& self) { return numpy::from_vec3(self.rig.point); })
         .def_property_readonly("coefficients",

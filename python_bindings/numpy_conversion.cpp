@@ -58,6 +58,22 @@ std::vector<glm::dvec3> to_vec3s(py::handle value, std::string_view name) {
     return {rows, rows + array.shape(0)};
 }
 
+PreparedRig to_rig(py::handle lights) {
+    if (py::isinstance<PreparedRig>(lights)) return lights.cast<const PreparedRig&>();
+    if (!py::isinstance<py::sequence>(lights) || py::isinstance<py::str>(lights))
+        throw py::type_error("lights is no list of Light or PreparedRig: " +
+                             py::repr(lights).cast<std::string>());
+    std::vector<Light> found;
+    for (const py::handle light : lights) {
+        if (!py::isinstance<Light>(light))
+            throw py::type_error("lights[" + std::to_string(found.size()) +
+                                 "] is no Light: " + py::repr(light).cast<std::string>());
+        found.push_back(light.cast<const Light&>());
+    }
+    const py::gil_scoped_release release;
+    return found;
+}
+
 py::array from_vec3s(std::vector<glm::dvec3>&& rows) {
     const auto count = static_cast<py::ssize_t>(rows.size());
     auto [data, owner] = keep(std::move(rows));

@@ -2,6 +2,7 @@
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <skinglow/rig.h>
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -27,6 +28,9 @@ glm::dvec3 to_vec3(pybind11::handle value, std::string_view name);
 /// (n, 3).
 std::vector<glm::dvec3> to_vec3s(pybind11::handle value, std::string_view name);
 
+/// A PreparedRig as it is, or one made, without the GIL, from a sequence of Light; TypeError otherwise.
+PreparedRig to_rig(pybind11::handle lights);
+
 /// Hands the vector's own memory to numpy, as (n, 3), without a copy.
 pybind11::array from_vec3s(std::vector<glm::dvec3>&& rows);
 pybind11::array from_vec3(const glm::dvec3& value);
@@ -34,5 +38,12 @@ pybind11::array from_doubles(std::vector<double>&& values);
 
 /// A read-only (n, 3, 3) view, [entry, row, column], of matrices that `owner` keeps alive.
 pybind11::array view_of_matrices(std::span<const glm::dmat3> matrices, pybind11::handle owner);
+
+/// What `work`, which touches no Python object, returns; other threads of Python run meanwhile.
+template <typename Work>
+auto without_gil(const Work& work) {
+    const pybind11::gil_scoped_release release;
+    return work();
+}
 
 }  // namespace skinglow::numpy

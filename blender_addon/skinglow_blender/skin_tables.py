@@ -152,7 +152,7 @@ def compute_table(skin: Skin, lights: list[SceneLight], world: World | None, cap
     if skin.mode == "PAPER":
         weight = np.add(skin.blood_weight, sg.light_weight(core_lights, skin.point, skin.attenuation))
     else:
-        irradiance = np.add(sg.irradiance(core_lights, skin.point), world_irradiance(world))
+        irradiance = np.add(sg.object_irradiance(core_lights, skin.point), world_irradiance(world))
         choice = _choose_weights(skin, core_lights, world, irradiance)
         if choice.weights == "SURFACE":
             lighting = _lighting(skin, core_lights, world, capacity)

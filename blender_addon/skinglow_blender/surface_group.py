@@ -5,6 +5,8 @@ Everything that depends on the lights is stored in texels of the skin's row, and
 inner group. So a changed light needs new pixels and one swapped image only, as with plain rows, and no new shader.
 """
 
+from functools import partial, reduce
+
 import bpy
 
 from . import blender_version
@@ -24,11 +26,9 @@ def build_surface(group: bpy.types.NodeTree, layout: Layout) -> None:
     texels = _Texels(build, row, _texel_group())
     constant, depth_per_mm = texels.read(layout.constant)
     far = _far_side(build, row, depth_per_mm, tuple(texels.read(layout.angular + i)[0] for i in range(4)))
-    light = constant
+    parts = []
     if layout.world:
-        light = build.vector(
-            "ADD", light, _world(build, far, [texels.read(layout.polynomial + i)[0] for i in range(9)])
-        )
+        parts.append(_world(build, far, [texels.read(layout.polynomial + i)[0] for i in range(9)]))
     first = layout.terms
     for count, profiled in ((layout.plain, False), (layout.profiled, True)):
         inner = _light_group(profiled) if count else None
@@ -42,8 +42,13 @@ def build_surface(group: bpy.types.NodeTree, layout: Layout) -> None:
             build.set(light_node.inputs["normal"], far.normal)
             for k, coefficient in enumerate(far.angular):
                 build.set(light_node.inputs[f"angular {k}"], coefficient)
-            light = build.vector("ADD", light, light_node.outputs[0])
+            parts.append(light_node.outputs[0])
         first += 4 * count
+    light = constant
+    if parts:
+        # Clamp the sum, not the polynomial: far lights of negative power take light from the others.
+        shown = build.vector("MAXIMUM", reduce(partial(build.vector, "ADD"), parts), (0.0, 0.0, 0.0))
+        light = build.vector("ADD", constant, shown)
     finish(build, _transmitted(build, row, texels, layout, light), row.strength)
     group[LAYOUT_PROPERTY] = tuple(int(n) for n in layout)
     if image is not None:
@@ -148,7 +153,7 @@ def _far_side(build: NodeBuilder, row: RowSockets, depth_per_mm: Socket, angular
 
 
 def _world(build: NodeBuilder, far: FarSide, coefficients: list[Socket]) -> Socket:
-    """The polynomial of skinglow.SurfaceLighting in the far side's normal, clamped at 0."""
+    """The polynomial of skinglow.SurfaceLighting in the far side's normal."""
     x, y, z = build.split(far.normal)
     squares = build.math("MULTIPLY_ADD", build.math("MULTIPLY", z, z), 3.0, -1.0)
     difference = build.math("MULTIPLY", build.math("ADD", x, y), build.math("SUBTRACT", x, y))
@@ -157,4 +162,4 @@ def _world(build: NodeBuilder, far: FarSide, coefficients: list[Socket]) -> Sock
     total = coefficients[0]
     for coefficient, term in zip(coefficients[1:], (y, z, x, xy, yz, squares, xz, difference), strict=True):
         total = build.vector("MULTIPLY_ADD", coefficient, term, total)
-    return build.vector("MAXIMUM", total, (0.0, 0.0, 0.0))
+    return total

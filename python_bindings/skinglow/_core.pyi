@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from os import PathLike
-from typing import Any, ClassVar, Final, Literal, TypedDict, overload
+from typing import Any, ClassVar, Final, Literal, TypeAlias, TypedDict, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -82,14 +82,16 @@ class Light:
 
 PAPER_BLOOD_WEIGHT: Final[_Rgb]
 
+_Lights: TypeAlias = "PreparedRig | Sequence[Light]"
+
 @overload
 def attenuation(distance: float, coefficients: ArrayLike = (1.0, 0.0, 1.0)) -> float: ...
 @overload
 def attenuation(
     distance: NDArray[Any] | Sequence[Any], coefficients: ArrayLike = (1.0, 0.0, 1.0)
 ) -> _Array: ...  # a float for an array without dimensions
-def light_weights(lights: Sequence[Light], point: ArrayLike, coefficients: ArrayLike = (1.0, 0.0, 1.0)) -> _Array: ...
-def light_weight(lights: Sequence[Light], point: ArrayLike, coefficients: ArrayLike = (1.0, 0.0, 1.0)) -> _Array: ...
+def light_weights(lights: _Lights, point: ArrayLike, coefficients: ArrayLike = (1.0, 0.0, 1.0)) -> _Array: ...
+def light_weight(lights: _Lights, point: ArrayLike, coefficients: ArrayLike = (1.0, 0.0, 1.0)) -> _Array: ...
 
 class BaseLut:
     def __init__(self, values: ArrayLike, max_thickness_mm: float) -> None: ...
@@ -286,10 +288,10 @@ class Environment:
     @property
     def coefficients(self) -> _Array: ...
 
-def irradiances(lights: Sequence[Light], point: ArrayLike, tolerance: float = 1e-7) -> _Array: ...
-def irradiance(lights: Sequence[Light], point: ArrayLike, tolerance: float = 1e-7) -> _Array: ...
+def object_irradiance_by_light(lights: _Lights, point: ArrayLike, tolerance: float = 1e-7) -> _Array: ...
+def object_irradiance(lights: _Lights, point: ArrayLike, tolerance: float = 1e-7) -> _Array: ...
 def surface_irradiance(
-    lights: Sequence[Light],
+    lights: _Lights,
     points: ArrayLike,
     normals: ArrayLike,
     *,
@@ -300,7 +302,7 @@ def surface_irradiance(
 ) -> _Array: ...
 def far_side(vertices: ArrayLike, normals: ArrayLike, depth: ArrayLike) -> tuple[_Array, _Array]: ...
 def far_side_irradiance(
-    lights: Sequence[Light],
+    lights: _Lights,
     vertices: ArrayLike,
     normals: ArrayLike,
     depth: ArrayLike,
@@ -314,7 +316,7 @@ def far_side_irradiance(
 class SurfaceLighting:
     def __init__(
         self,
-        lights: Sequence[Light],
+        lights: _Lights,
         box_min: ArrayLike,
         box_max: ArrayLike,
         environment: Environment | None = None,
@@ -372,27 +374,29 @@ class _LightReportEntry(TypedDict):
         "no width",
         "occluded",
         "culled",
-        "behind lamp",
+        "behind light",
         "outside cone",
         "behind",
         "too weak",
     ]
 
-class LightTree:
-    def __init__(self, lights: Sequence[Light]) -> None: ...
+class PreparedRig:
+    def __init__(self, lights: _Lights) -> None: ...
+    @property
+    def lights(self) -> list[Light]: ...
     def cull(self, box_min: ArrayLike, box_max: ArrayLike, tolerance: float) -> _CullingResult: ...
     def __len__(self) -> int: ...
 
-def merge_identical(lights: Sequence[Light]) -> list[Light]: ...
+def merge_identical(lights: _Lights) -> list[Light]: ...
 def object_irradiance_error(
-    lights: Sequence[Light],
+    lights: _Lights,
     point: ArrayLike,
     box_min: ArrayLike,
     box_max: ArrayLike,
     facing: tuple[ArrayLike, float] | None = None,
 ) -> _Array: ...
 def light_report(
-    lights: Sequence[Light],
+    lights: _Lights,
     point: ArrayLike,
     normal: ArrayLike | None = None,
     occluded: Sequence[bool] = [],

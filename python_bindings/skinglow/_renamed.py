@@ -6,8 +6,11 @@ from collections.abc import Callable
 from typing import Any
 
 RENAMED = {
+    "LightTree": "PreparedRig",
     "VisibleShare": "VisibleFraction",
     "black_body_colour": "black_body_color",
+    "irradiance": "object_irradiance",
+    "irradiances": "object_irradiance_by_light",
     "povray_scene": "povray_files",
     "recolour": "recolor",
     "spectral_colour": "spectral_color",

@@ -122,7 +122,7 @@ def weight_errors() -> list[WeightError]:
     for name, lights in RIGS.items():
         _, exact_ms = task.timed(lambda lights=lights: exact(lights, weight))
         truth = exact(tiled(lights), weight)
-        one, object_ms = task.timed(lambda lights=lights: sg.irradiance(lights, (0.0, 0.0, 0.0)))
+        one, object_ms = task.timed(lambda lights=lights: sg.object_irradiance(lights, (0.0, 0.0, 0.0)))
         (lighting, surface), _ = task.timed(lambda lights=lights: shown(lights, weight))
         _, surface_ms = task.timed(lambda lights=lights: sg.SurfaceLighting(lights, *BOX, angular_weight=weight))
         bound = sg.object_irradiance_error(lights, (0, 0, 0), *BOX, ((0, 0, 1), np.pi))
@@ -183,8 +183,8 @@ def culling_steps() -> list[Step]:
     lights = [lights[i] for i in order]
     points, facing = NORMALS[::4] * RADIUS, -NORMALS[::4]
     everything, all_ms = task.timed(lambda: sg.surface_irradiance(lights, points, facing, threads=1))
-    whole = float(sg.irradiance(lights, (0, 0, 0)).max())
-    tree = sg.LightTree(lights)
+    whole = float(sg.object_irradiance(lights, (0, 0, 0)).max())
+    tree = sg.PreparedRig(lights)
     steps = [Step("0 (all lights)", 0.0, all_ms, f"{len(lights)}")]
     for tolerance in (1e-4, 1e-3, 1e-2, 1e-1):
         result = tree.cull(*BOX, tolerance * whole)

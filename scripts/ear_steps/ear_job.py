@@ -37,7 +37,7 @@ def lookup_materials(ear: ear_scene.Ear) -> dict[str, Any]:
     """The lookup methods, as shown by the modes of the add-on (docs/method.md)."""
     weight = sg.PAPER_BLOOD_WEIGHT + sg.light_weight([ear.light], ear.reference_point)
     base = SKIN1.base_lut(TABLE_SIZE, MAX_THICKNESS_MM)
-    object_weight = sg.irradiance([ear.light], ear.reference_point)
+    object_weight = sg.object_irradiance([ear.light], ear.reference_point)
     existing = sg.six_gaussian_lookup(TABLE_SIZE, MAX_THICKNESS_MM)
     paper = sg.recolor(sg.six_gaussian_base(TABLE_SIZE, MAX_THICKNESS_MM), weight)
     one_weight = sg.recolor(base, object_weight)

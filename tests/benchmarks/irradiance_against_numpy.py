@@ -145,9 +145,9 @@ def culling(count=10_000, matter=100):
     lights = rig(kinds, matter, power=100) + rig(kinds, count - matter, near=20, far=200, power=0.5)
     rng.shuffle(lights)
     low, high = np.full(3, -0.1), np.full(3, 0.1)
-    whole = sg.irradiance(lights, (0, 0, 0))
+    whole = sg.object_irradiance(lights, (0, 0, 0))
     tolerance = 1e-3 * whole.max()
-    tree = sg.LightTree(lights)
+    tree = sg.PreparedRig(lights)
     result = tree.cull(low, high, tolerance)
     kept = [lights[k] for k in result["kept"]]
     points, normals = sphere(2000)
@@ -161,7 +161,7 @@ def culling(count=10_000, matter=100):
         "kept lamps alone": lambda: sg.surface_irradiance(kept, points, normals),
         "all lamps": lambda: sg.surface_irradiance(lights, points, normals),
         "cull alone": lambda: tree.cull(low, high, tolerance),
-        "tree made anew": lambda: sg.LightTree(lights),
+        "tree made anew": lambda: sg.PreparedRig(lights),
     }
     times = medians(ways, 5)
     for name, taken in times.items():

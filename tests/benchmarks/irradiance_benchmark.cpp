@@ -1,6 +1,7 @@
 // Irradiance per vertex by kind of lamp, growth with vertices and lamps, and culling of ten thousand lamps:
 // beside numpy in irradiance_against_numpy.py.
 #include <benchmark/benchmark.h>
+#include <skinglow/rig.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -8,25 +9,24 @@
 #include <random>
 #include <vector>
 
-#include "rig/light_culling.h"
-#include "rig/surface_irradiance.h"
-
 namespace {
 
 using namespace skinglow;
 
-std::vector<Light> ring_of_lamps(LightKind kind, std::int64_t count, double distance, double power) {
+LightShape area(AreaShape shape, double spread) {
+    return AreaLight{.area_shape = shape, .size_x = 0.5, .size_y = 0.3, .spread = spread};
+}
+
+std::vector<Light> ring_of_lights(const LightShape& shape, std::int64_t count, double distance,
+                                  double power) {
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
-    std::vector<Light> lights(static_cast<std::size_t>(count));
-    for (Light& light : lights) {
-        light.kind = kind;
-        light.position =
+    std::vector<Light> lights;
+    for (std::int64_t i = 0; i < count; ++i) {
+        const glm::dvec3 position =
             glm::normalize(glm::dvec3(normal(random), normal(random), normal(random))) * distance;
-        light.direction = -light.position;
-        light.power = power;
-        light.size_x = 0.5;
-        light.size_y = 0.3;
+        lights.emplace_back(
+            LightSettings{.shape = shape, .position = position, .direction = -position, .power = power});
     }
     return lights;
 }
@@ -46,51 +46,46 @@ std::vector<glm::dvec3> ball_normals(std::int64_t count) {
     return normals;
 }
 
-void surface(benchmark::State& state, LightKind kind, AreaShape shape, double spread) {
+void surface(benchmark::State& state, const LightShape& shape) {
     const std::vector<glm::dvec3> normals = ball_normals(state.range(0));
     std::vector<glm::dvec3> points;
     for (const glm::dvec3& normal : normals) points.push_back(0.1 * normal);
-    std::vector<Light> lights = ring_of_lamps(kind, state.range(1), 2.0, 10.0);
-    for (Light& light : lights) {
-        light.area_shape = shape;
-        light.spread = spread;
-    }
+    const std::vector<Light> lights = ring_of_lights(shape, state.range(1), 2.0, 10.0);
     for (auto _ : state) {
         benchmark::DoNotOptimize(surface_irradiance(lights, points, normals, {.threads = 1}));
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size() * lights.size()));
 }
 constexpr double pi = std::numbers::pi;
-BENCHMARK_CAPTURE(surface, point, LightKind::point, AreaShape::rectangle, pi)
+BENCHMARK_CAPTURE(surface, point, PointLight{})
     ->Args({1000, 16})
     ->Args({10000, 16})
     ->Args({100000, 16})
     ->Args({100000, 4})
     ->Args({100000, 64});
-BENCHMARK_CAPTURE(surface, spot, LightKind::spot, AreaShape::rectangle, pi)->Args({100000, 16});
-BENCHMARK_CAPTURE(surface, sun, LightKind::sun, AreaShape::rectangle, pi)->Args({100000, 16});
-BENCHMARK_CAPTURE(surface, rectangle, LightKind::area, AreaShape::rectangle, pi)->Args({100000, 16});
-BENCHMARK_CAPTURE(surface, ellipse, LightKind::area, AreaShape::ellipse, pi)->Args({1000, 16});
-BENCHMARK_CAPTURE(surface, rectangle_with_spread, LightKind::area, AreaShape::rectangle, 2.0)
-    ->Args({1000, 16});
-BENCHMARK_CAPTURE(surface, ellipse_with_spread, LightKind::area, AreaShape::ellipse, 2.0)->Args({1000, 16});
+BENCHMARK_CAPTURE(surface, spot, SpotLight{})->Args({100000, 16});
+BENCHMARK_CAPTURE(surface, sun, SunLight{})->Args({100000, 16});
+BENCHMARK_CAPTURE(surface, rectangle, area(AreaShape::rectangle, pi))->Args({100000, 16});
+BENCHMARK_CAPTURE(surface, ellipse, area(AreaShape::ellipse, pi))->Args({1000, 16});
+BENCHMARK_CAPTURE(surface, rectangle_with_spread, area(AreaShape::rectangle, 2.0))->Args({1000, 16});
+BENCHMARK_CAPTURE(surface, ellipse_with_spread, area(AreaShape::ellipse, 2.0))->Args({1000, 16});
 
 void cull(benchmark::State& state) {
-    std::vector<Light> lights = ring_of_lamps(LightKind::point, state.range(0) - 100, 100.0,
-                                              1000.0 / static_cast<double>(state.range(0)));
-    for (const Light& light : ring_of_lamps(LightKind::point, 100, 2.0, 100.0)) lights.push_back(light);
-    const LightTree tree(lights);
+    std::vector<Light> lights = ring_of_lights(PointLight{}, state.range(0) - 100, 100.0,
+                                               1000.0 / static_cast<double>(state.range(0)));
+    for (const Light& light : ring_of_lights(PointLight{}, 100, 2.0, 100.0)) lights.push_back(light);
+    const PreparedRig rig(lights);
     const Box box{glm::dvec3(-0.1), glm::dvec3(0.1)};
-    std::size_t kept = 0;
-    for (auto _ : state) kept = tree.cull(box, 0.05).kept.size();
+    std::size_t kept = rig.cull(box, 0.05).kept.size();
+    for (auto _ : state) kept = rig.cull(box, 0.05).kept.size();
     state.counters["kept"] = static_cast<double>(kept);
 }
 BENCHMARK(cull)->Arg(1000)->Arg(10000)->Arg(100000);
 
-void build_tree(benchmark::State& state) {
-    const std::vector<Light> lights = ring_of_lamps(LightKind::point, state.range(0), 2.0, 1.0);
-    for (auto _ : state) benchmark::DoNotOptimize(LightTree(lights));
+void prepare_and_build_tree(benchmark::State& state) {
+    const std::vector<Light> lights = ring_of_lights(PointLight{}, state.range(0), 2.0, 1.0);
+    for (auto _ : state) benchmark::DoNotOptimize(PreparedRig(lights).cull({}, 1e30));
 }
-BENCHMARK(build_tree)->Arg(10000);
+BENCHMARK(prepare_and_build_tree)->Arg(10000);
 
 }  // namespace

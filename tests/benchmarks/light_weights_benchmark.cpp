@@ -1,22 +1,20 @@
 // Eq. 3 for 1, 100 and 10,000 lights, beside the same sum without compensation: the price of not minding the
 // order.
 #include <benchmark/benchmark.h>
+#include <skinglow/light_weights.h>
 
 #include <random>
 #include <vector>
-
-#include "light/light_weights.h"
 
 namespace {
 
 std::vector<skinglow::Light> random_lights(std::int64_t count) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(0.1, 10.0);
-    std::vector<skinglow::Light> lights(static_cast<std::size_t>(count));
-    for (skinglow::Light& light : lights) {
-        light.color = {uniform(random), uniform(random), uniform(random)};
-        light.position = {uniform(random), uniform(random), uniform(random)};
-    }
+    const auto vector = [&] { return glm::dvec3(uniform(random), uniform(random), uniform(random)); };
+    std::vector<skinglow::Light> lights;
+    for (std::int64_t i = 0; i < count; ++i)
+        lights.emplace_back(skinglow::LightSettings{.color = vector(), .position = vector()});
     return lights;
 }
 
@@ -33,8 +31,8 @@ void plain_sum_unchecked(benchmark::State& state) {
     for (auto _ : state) {
         glm::dvec3 sum(0.0);
         for (const skinglow::Light& light : lights) {
-            const glm::dvec3 p = light.position;
-            sum += light.color / (1.0 + p.x * p.x + p.y * p.y + p.z * p.z);
+            const glm::dvec3 p = light.position();
+            sum += light.color() / (1.0 + p.x * p.x + p.y * p.y + p.z * p.z);
         }
         benchmark::DoNotOptimize(sum);
     }

@@ -1,9 +1,10 @@
 #include <benchmark/benchmark.h>
+#include <skinglow/occlusion.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <skinglow/occlusion.h>
 
+#include "../core/flat_light.h"
 #include "../core/mesh_shapes.h"
 #include "bare_embree.h"
 
@@ -22,8 +23,8 @@ std::vector<glm::dvec3> points(int count) {
     return found;
 }
 
-Light light(double radius) {
-    Light found;
+FlatLight light(double radius) {
+    FlatLight found;
     found.position = {0, 0, 4};
     found.radius = radius;
     return found;

@@ -7,10 +7,10 @@
 #include <random>
 #include <vector>
 
-#include "light/light.h"
+#include "flat_light.h"
 
-/// Scenes that a person would not think of: every kind of lamp, sizes and powers over decades, negative
-/// power, lamps in and on the box of the object.
+/// Scenes that a person would not think of: every kind of light, sizes and powers over decades, negative
+/// power, lights in and on the box of the object.
 namespace skinglow {
 
 class RandomScene {
@@ -34,8 +34,8 @@ class RandomScene {
         return glm::normalize(v);
     }
 
-    Light light() {
-        Light light;
+    FlatLight light() {
+        FlatLight light;
         light.kind = static_cast<LightKind>(std::uniform_int_distribution<int>(0, 3)(engine_));
         light.color = in_box(glm::dvec3(0.0), glm::dvec3(1.0));
         light.position = unit_vector() * decades(0.05, 100.0);

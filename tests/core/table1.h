@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "light/light.h"
+#include "flat_light.h"
 
 /// The paper's experiment (Table 1) and what Eq. 1-3 give for it with coefficients (1, 0, 1), worked out by
 /// hand in exact fractions and rounded once, to double.
@@ -22,19 +22,23 @@ inline const glm::dvec3 total = {1.0673248156733326, 0.8759887699172859, 1.21883
 inline const glm::dvec3 blood_and_light = {2.8673248156733324, 1.375988769917286, 1.6188394806931314};
 inline const glm::dvec3 quarter_gray = {0.7168312039183331, 0.3439971924793215, 0.40470987017328286};
 
-/// The three lamps, each at its distance from the origin in a direction of its own.
-inline std::vector<skinglow::Light> lights() {
+/// The three lights, each at its distance from the origin in a direction of its own.
+inline std::vector<skinglow::FlatLight> flat_lights() {
     const std::array<glm::dvec3, 3> bytes = {glm::dvec3(255, 112, 69), glm::dvec3(15, 64, 255),
                                              glm::dvec3(255, 255, 255)};
     const std::array<glm::dvec3, 3> away = {glm::dvec3(1, 0, 0), glm::dvec3(0, -0.6, 0.8),
                                             glm::dvec3(0, 0, -1)};
-    std::vector<skinglow::Light> lamps(3);
+    std::vector<skinglow::FlatLight> lights(3);
     for (std::size_t k = 0; k < 3; ++k) {
-        lamps[k].color = bytes[k] / 255.0;
-        lamps[k].position = away[k] * distance[k];
-        lamps[k].name = "Light" + std::to_string(k + 1);
+        lights[k].color = bytes[k] / 255.0;
+        lights[k].position = away[k] * distance[k];
+        lights[k].name = "Light" + std::to_string(k + 1);
     }
-    return lamps;
+    return lights;
+}
+
+inline std::vector<skinglow::Light> lights() {
+    return skinglow::made(flat_lights());
 }
 
 }  // namespace table1

@@ -36,12 +36,12 @@ light = st.builds(
 def test_each_kind_is_its_formula():
     above = {"position": (0, 0, 2), "power": 100}
     point = 100 / (4 * PI * 4)
-    assert sg.irradiance([sg.Light("POINT", **above)], (0, 0, 0)) == pytest.approx([point] * 3)
-    assert sg.irradiance([sg.Light("SPOT", **above)], (0, 0, 0)) == pytest.approx([point] * 3)
-    assert sg.irradiance([sg.Light("SUN", power=3)], (7, 7, 7)) == pytest.approx([3] * 3)
-    assert sg.irradiance([sg.Light("AREA", **above)], (0, 0, 0)) == pytest.approx([4 * point] * 3)
+    assert sg.object_irradiance([sg.Light("POINT", **above)], (0, 0, 0)) == pytest.approx([point] * 3)
+    assert sg.object_irradiance([sg.Light("SPOT", **above)], (0, 0, 0)) == pytest.approx([point] * 3)
+    assert sg.object_irradiance([sg.Light("SUN", power=3)], (7, 7, 7)) == pytest.approx([3] * 3)
+    assert sg.object_irradiance([sg.Light("AREA", **above)], (0, 0, 0)) == pytest.approx([4 * point] * 3)
     soft = sg.Light("POINT", **above, radius=0.5)
-    assert sg.irradiance([soft], (0, 0, 0))[0] == pytest.approx(1.8724, abs=5e-5)
+    assert sg.object_irradiance([soft], (0, 0, 0))[0] == pytest.approx(1.8724, abs=5e-5)
 
 
 def test_disk_off_its_axis_is_the_closed_form():
@@ -58,10 +58,10 @@ def test_disk_off_its_axis_is_the_closed_form():
 
 @given(st.lists(light, max_size=6), vector)
 def test_parts_add_up_and_are_finite(lights, point):
-    parts = sg.irradiances(lights, point)
+    parts = sg.object_irradiance_by_light(lights, point)
     assert parts.shape == (len(lights), 3)
     assert np.isfinite(parts).all()
-    total = sg.irradiance(lights, point)
+    total = sg.object_irradiance(lights, point)
     np.testing.assert_allclose(total, parts.sum(axis=0), rtol=1e-9, atol=1e-12 * abs(parts).sum())
     for one, part in zip(lights, parts, strict=True):
         assert (part == 0).all() or one.is_on
@@ -75,14 +75,14 @@ def test_surface_is_never_above_what_faces_the_lamps(lights, places):
     assert values.shape == points.shape
     assert np.isfinite(values).all()
     for point, value in zip(points, values, strict=True):
-        box = sg.LightTree(lights).cull(point, point, 1e30)
+        box = sg.PreparedRig(lights).cull(point, point, 1e30)
         assert (abs(value) <= box["bound"] * (1 + 1e-9) + 1e-12).all()
 
 
 @given(st.lists(light, max_size=12), vector, st.floats(0, 2), st.floats(0, 10), direction)
 def test_culling_keeps_its_bound(lights, middle, half, tolerance, normal):
     low, high = np.subtract(middle, half), np.add(middle, half)
-    result = sg.LightTree(lights).cull(low, high, tolerance)
+    result = sg.PreparedRig(lights).cull(low, high, tolerance)
     dropped = [i for group in result["dropped"] for i in group["lights"]]
     assert sorted(dropped + result["kept"]) == list(range(len(lights)))
     assert (result["bound"] <= tolerance).all()
@@ -91,16 +91,16 @@ def test_culling_keeps_its_bound(lights, middle, half, tolerance, normal):
     lost = sg.surface_irradiance(left_out, corners, np.tile(normal, (8, 1)))
     assert (abs(lost) <= result["bound"] + 1e-12).all()
     for corner in corners:
-        assert (abs(sg.irradiance(left_out, corner)) <= result["bound"] + 1e-12).all()
+        assert (abs(sg.object_irradiance(left_out, corner)) <= result["bound"] + 1e-12).all()
 
 
 @given(st.lists(light, max_size=5), vector, st.floats(0, 1))
 def test_object_weight_error_holds(lights, middle, half):
     low, high = np.subtract(middle, half), np.add(middle, half)
     error = sg.object_irradiance_error(lights, middle, low, high)
-    here = sg.irradiance(lights, middle)
+    here = sg.object_irradiance(lights, middle)
     for corner in (low, high):
-        change = abs(sg.irradiance(lights, corner) - here)
+        change = abs(sg.object_irradiance(lights, corner) - here)
         assert (change <= error * (1 + 1e-9) + 1e-12).all()
 
 
@@ -121,7 +121,7 @@ def test_report_names_reasons():
     ]
     report = sg.light_report(lights, (0, 0, 0), occluded=[False] * 4 + [True])
     states = [entry["state"] for entry in report]
-    assert states == ["shines", "hidden", "outside cone", "behind lamp", "occluded"]
+    assert states == ["shines", "hidden", "outside cone", "behind light", "occluded"]
     assert report[0]["share"] == 1
     assert report[0]["normal_angle"] is None
     assert sg.light_report(lights, (0, 0, 0), normal=(0, 0, -1))[0]["state"] == "behind"
@@ -183,8 +183,8 @@ def test_mirror_ball_of_one_color_and_what_lies_outside_it():
         (lambda: sg.Light("AREA", size_x=-1, name="A"), 'light "A" size_x is -1'),
         (lambda: sg.Light("SPOT", spot_angle=4), "spot_angle is 4"),
         (lambda: sg.Light("AREA", area_shape="ROUND"), "RECTANGLE, SQUARE, ELLIPSE or DISK"),
-        (lambda: sg.irradiance([], (0, 0, np.nan)), "point is"),
-        (lambda: sg.irradiance([], (0, 0, 0), tolerance=0), "tolerance is 0"),
+        (lambda: sg.object_irradiance([], (0, 0, np.nan)), "point is"),
+        (lambda: sg.object_irradiance([], (0, 0, 0), tolerance=0), "tolerance is 0"),
         (lambda: sg.surface_irradiance([], np.zeros((2, 3)), np.zeros((1, 3))), "normals is 1"),
         (lambda: sg.surface_irradiance([], np.zeros(3), np.zeros(3)), r"shape \(n, 3\)"),
         (lambda: sg.Environment(np.zeros((2, 2))), r"\(9, 3\)"),
@@ -195,7 +195,7 @@ def test_mirror_ball_of_one_color_and_what_lies_outside_it():
         (lambda: sg.Environment((1, 1, 1)).rotated(2 * np.eye(3)), "orthogonal"),
         (lambda: sg.Environment((1, 1, 1)).rotated(np.eye(3)[:2]), r"shape \(3, 3\)"),
         (lambda: sg.AngularWeight([0, 1], [0, 0]), "above 0"),
-        (lambda: sg.LightTree([]).cull((1, 0, 0), (0, 1, 1), 1), "box min"),
+        (lambda: sg.PreparedRig([]).cull((1, 0, 0), (0, 1, 1), 1), "box min"),
         (lambda: sg.black_body_color(10), "800 to 20000 K"),
     ],
 )

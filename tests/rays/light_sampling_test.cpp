@@ -1,15 +1,16 @@
 #include "rays/light_sampling.h"
 
 #include <gtest/gtest.h>
+#include <skinglow/box.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <random>
-#include <skinglow/box.h>
 #include <vector>
 
+#include "flat_light.h"
 #include "geometry/vector.h"
 
 namespace skinglow {
@@ -24,7 +25,8 @@ constexpr double chi_square_limit = 176.0;
 /// Chi-square of counts that should all be equal, of points of the unit square. The uniform numbers are a fixed
 /// sequence.
 template <typename ToSquare>
-double chi_square(const PreparedLight& light, const glm::dvec3& point, const glm::dvec3& normal, ToSquare to_square) {
+double chi_square(const PreparedLight& light, const glm::dvec3& point, const glm::dvec3& normal,
+                  ToSquare to_square) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     std::vector<double> counts(bins * bins, 0.0);
@@ -56,17 +58,18 @@ glm::dvec2 on_cap(const Sample& sample, const glm::dvec3& axis, double angular_r
 }
 
 TEST(SampleLight, CoversTheSunEvenly) {
-    Light sun;
+    FlatLight sun;
     sun.kind = LightKind::sun;
     sun.direction = {1, 2, -3};
     sun.sun_angle = 0.6;
     const glm::dvec3 axis = -unit(sun.direction);
-    EXPECT_LT(chi_square(PreparedLight(sun), {}, {0, 0, 1}, [&](const auto& s) { return on_cap(s, axis, 0.3); }),
-              chi_square_limit);
+    EXPECT_LT(
+        chi_square(PreparedLight(sun), {}, {0, 0, 1}, [&](const auto& s) { return on_cap(s, axis, 0.3); }),
+        chi_square_limit);
 }
 
 TEST(SampleLight, CoversABallEvenlyFromOutsideAndTheHemisphereFromWithin) {
-    Light ball;
+    FlatLight ball;
     ball.position = {0, 0, 2};
     ball.radius = 1.5;
     ball.soft_falloff = false;
@@ -86,7 +89,7 @@ TEST(SampleLight, CoversABallEvenlyFromOutsideAndTheHemisphereFromWithin) {
 }
 
 TEST(SampleLight, CoversFlatLightsEvenlyInArea) {
-    Light area;
+    FlatLight area;
     area.kind = LightKind::area;
     area.position = {1, 2, 3};
     area.direction = {0, 1, -2};

@@ -1,9 +1,9 @@
 #include "rays/ray_scene.h"
 
 #include <gtest/gtest.h>
+#include <skinglow/thickness.h>
 
 #include <glm/geometric.hpp>
-#include <skinglow/thickness.h>
 #include <stdexcept>
 #include <string>
 
@@ -30,7 +30,8 @@ double exit_distance(const Mesh& mesh, const glm::dvec3& from, const glm::dvec3&
         if (!exit) return -1.0;
         const WeldedTriangle& t = welded.triangles()[*exit];
         const glm::dvec3& origin = welded.positions()[vertex];
-        return (t.plane - glm::dot(t.unit_normal, origin)) / glm::dot(t.unit_normal, direction) * welded.scale();
+        return (t.plane - glm::dot(t.unit_normal, origin)) / glm::dot(t.unit_normal, direction) *
+               welded.scale();
     }
     throw std::logic_error("no such vertex");
 }

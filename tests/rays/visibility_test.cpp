@@ -1,6 +1,6 @@
-#include <skinglow/occlusion.h>
-
 #include <gtest/gtest.h>
+#include <skinglow/occlusion.h>
+#include <skinglow/rig.h>
 
 #include <cmath>
 #include <functional>
@@ -11,7 +11,6 @@
 
 #include "mesh_shapes.h"
 #include "random_lights.h"
-#include "rig/irradiance.h"
 
 namespace skinglow {
 namespace {
@@ -44,14 +43,14 @@ Mesh moved(Mesh mesh, const glm::dvec3& by, double scale = 1.0) {
     return mesh;
 }
 
-Light point_lamp(const glm::dvec3& position) {
-    Light light;
+FlatLight point_lamp(const glm::dvec3& position) {
+    FlatLight light;
     light.position = position;
     return light;
 }
 
-Light area_lamp(AreaShape shape, double size_x, double size_y, double height) {
-    Light light;
+FlatLight area_lamp(AreaShape shape, double size_x, double size_y, double height) {
+    FlatLight light;
     light.kind = LightKind::area;
     light.area_shape = shape;
     light.size_x = size_x;
@@ -62,7 +61,7 @@ Light area_lamp(AreaShape shape, double size_x, double size_y, double height) {
 
 double share(const Occluders& occluders, const Light& light, const glm::dvec3& point = glm::dvec3(0),
              const glm::dvec3& normal = up, const VisibilityOptions& options = {}) {
-    const VisibleFraction found = visible_fraction(occluders, {&light, 1}, {&point, 1}, {&normal, 1}, options);
+    const VisibleFraction found = visible_fraction(occluders, {light}, {&point, 1}, {&normal, 1}, options);
     EXPECT_DOUBLE_EQ(found.mean[0], found.at_points[0]);
     return found.mean[0];
 }
@@ -78,15 +77,15 @@ std::string refusal(const std::function<void()>& action) {
 
 TEST(Visibility, HalfPlaneLeavesHalfOfADisk) {
     const Occluders occluders = occluders_of({half_plane(0, 1)});
-    const Light disk = area_lamp(AreaShape::ellipse, 1, 1, 2);
+    const FlatLight disk = area_lamp(AreaShape::ellipse, 1, 1, 2);
     EXPECT_NEAR(share(occluders, disk, {}, up, {.samples = 4096}), 0.5, 5e-4);
     EXPECT_NEAR(share(occluders, disk), 0.5, 0.07);  // the default, from one place
-    Light ball = point_lamp({0, 0, 2});
+    FlatLight ball = point_lamp({0, 0, 2});
     ball.radius = 0.5;
     EXPECT_NEAR(share(occluders, ball, {}, up, {.samples = 4096}), 0.5, 5e-4);
     ball.soft_falloff = false;
     EXPECT_NEAR(share(occluders, ball, {}, up, {.samples = 4096}), 0.5, 5e-4);
-    Light sun;
+    FlatLight sun;
     sun.kind = LightKind::sun;
     sun.sun_angle = 0.3;
     EXPECT_NEAR(share(occluders, sun, {}, up, {.samples = 4096}), 0.5, 5e-4);
@@ -96,7 +95,7 @@ TEST(Visibility, HalfARectangleIsAsBrightAsThatHalfAlone) {
     // What is left of a near, oblique lamp, against the closed form of a lamp half as wide.
     for (const AreaShape shape : {AreaShape::rectangle, AreaShape::ellipse}) {
         for (const double spread : {pi, 1.6}) {
-            Light whole = area_lamp(shape, 2, 1, 1);
+            FlatLight whole = area_lamp(shape, 2, 1, 1);
             whole.spread = spread;
             const glm::dvec3 normal = glm::normalize(glm::dvec3(-0.6, 0.3, 1));
             const Occluders left = occluders_of({half_plane(0, 0.5)});
@@ -105,11 +104,12 @@ TEST(Visibility, HalfARectangleIsAsBrightAsThatHalfAlone) {
             const double b = share(right, whole, {}, normal, {.samples = 4096});
             EXPECT_NEAR(a + b, 1.0, 1e-3);  // both stop a way along their common edge
             if (shape == AreaShape::ellipse || spread < pi) continue;
-            Light half = whole;
+            FlatLight half = whole;
             half.size_x = 1;
             half.position.x = -0.5;
             half.power = 0.5;
-            const double expected = irradiance(half, {}, normal).r / irradiance(whole, {}, normal).r;
+            const double expected =
+                irradiance_at({half}, {}, normal).r / irradiance_at({whole}, {}, normal).r;
             EXPECT_GT(expected, 0.6);
             EXPECT_NEAR(a, expected, 1e-3);
         }
@@ -118,7 +118,7 @@ TEST(Visibility, HalfARectangleIsAsBrightAsThatHalfAlone) {
 
 TEST(Visibility, BallEclipsesASun) {
     // Seen on its axis a round patch brings pi L sin^2 of its radius, so that is what a smaller one takes.
-    Light sun;
+    FlatLight sun;
     sun.kind = LightKind::sun;
     sun.sun_angle = 0.6;
     const double sine = 0.2;
@@ -128,7 +128,7 @@ TEST(Visibility, BallEclipsesASun) {
 }
 
 TEST(Visibility, BallBeforeAPointLampHidesItAndBesideItDoesNot) {
-    const Light lamp = point_lamp({0, 0, 4});
+    const FlatLight lamp = point_lamp({0, 0, 4});
     EXPECT_EQ(share(occluders_of({moved(shapes::sphere(0.5, 3), {0, 0, 2})}), lamp), 0.0);
     EXPECT_EQ(share(occluders_of({moved(shapes::sphere(0.5, 3), {0.6, 0, 2})}), lamp), 1.0);
     EXPECT_EQ(share(occluders_of({}), lamp), 1.0);
@@ -147,7 +147,7 @@ TEST(Visibility, WhatStandsBehindTheLampOrTouchesItDoesNotCount) {
 }
 
 TEST(Visibility, BallLampEndsAtItsSurface) {
-    Light ball = point_lamp({0, 0, 2});
+    FlatLight ball = point_lamp({0, 0, 2});
     ball.radius = 0.5;
     ball.soft_falloff = false;
     // A sheet within the ball is behind its near side, one before it is not.
@@ -163,40 +163,40 @@ TEST(Visibility, MeshesLeftOutDoNotCount) {
                                    moved(shapes::sphere(0.5, 3), {0, 0, 3})};
     const Occluders occluders = occluders_of(meshes);
     EXPECT_EQ(occluders.meshes(), 3U);
-    const Light lamp = point_lamp({0, 0, 4});
+    const FlatLight lamp = point_lamp({0, 0, 4});
     EXPECT_EQ(share(occluders, lamp), 0.0);
     EXPECT_EQ(share(occluders, lamp, {}, up, {.excluded = {0, 1}}), 0.0);
     EXPECT_EQ(share(occluders, lamp, {}, up, {.excluded = {1, 2}}), 0.0);
     EXPECT_EQ(share(occluders, lamp, {}, up, {.excluded = {2, 0, 1}}), 1.0);
-    EXPECT_NE(refusal([&] { share(occluders, lamp, {}, up, {.excluded = {3}}); }).find("is 3; allowed: below"),
-              std::string::npos);
+    EXPECT_NE(
+        refusal([&] { share(occluders, lamp, {}, up, {.excluded = {3}}); }).find("is 3; allowed: below"),
+        std::string::npos);
 }
 
 TEST(Visibility, MeanCountsPlacesByWhatTheLampWouldBring) {
     const Occluders wall = occluders_of({half_plane(1, 1)});
-    const Light lamp = point_lamp({0, 0, 2});
+    const FlatLight lamp = point_lamp({0, 0, 2});
     // Lit; in the wall's shadow; facing away, which the wall cannot help.
     const std::vector<glm::dvec3> points{{0, 0, 0}, {3, 0, 0}, {0, 1, 0}};
     const std::vector<glm::dvec3> normals{{0, 0, 5}, {-1, 0, 1}, {0, 0, -1}};
-    const VisibleFraction found = visible_fraction(wall, {&lamp, 1}, points, normals);
+    const VisibleFraction found = visible_fraction(wall, {lamp}, points, normals);
     EXPECT_EQ(found.at_points, (std::vector<double>{1, 0, 1}));
-    const double lit = irradiance(lamp, points[0], normals[0]).r;
-    const double dark = irradiance(lamp, points[1], normals[1]).r;
+    const double lit = irradiance_at({lamp}, points[0], normals[0]).r;
+    const double dark = irradiance_at({lamp}, points[1], normals[1]).r;
     EXPECT_NEAR(found.mean[0], lit / (lit + dark), 1e-12);
     const std::vector<glm::dvec3> away(3, -up);
-    EXPECT_EQ(visible_fraction(wall, {&lamp, 1}, points, away).mean[0], 1.0);
-    EXPECT_EQ(visible_fraction(wall, {&lamp, 1}, points, std::vector<glm::dvec3>(3, glm::dvec3(0))).mean[0],
-              1.0);
+    EXPECT_EQ(visible_fraction(wall, {lamp}, points, away).mean[0], 1.0);
+    EXPECT_EQ(visible_fraction(wall, {lamp}, points, std::vector<glm::dvec3>(3, glm::dvec3(0))).mean[0], 1.0);
 }
 
 TEST(Visibility, MeanOverPlacesIsFarBetterThanOne) {
     // The shadow's edge crosses a row of places; the mean of their shares is the mean of a closed form.
-    Light disk = area_lamp(AreaShape::rectangle, 1, 1, 2);
+    FlatLight disk = area_lamp(AreaShape::rectangle, 1, 1, 2);
     const Occluders wall = occluders_of({half_plane(0, 1)});
     std::vector<glm::dvec3> points;
     for (int i = 0; i < 256; ++i) points.emplace_back(-0.5 + (i + 0.5) / 256, 0.0, 0.0);
     const std::vector<glm::dvec3> normals(points.size(), up);
-    const VisibleFraction found = visible_fraction(wall, {&disk, 1}, points, normals);
+    const VisibleFraction found = visible_fraction(wall, {disk}, points, normals);
     EXPECT_NEAR(found.mean[0], 0.5, 2e-3);  // by symmetry
 }
 
@@ -306,17 +306,17 @@ TEST(Visibility, ExtremesGiveAShare) {
     EXPECT_EQ(share(occluders, point_lamp({0, 0, 1e100}), {0, 0, -3}), 0.0);
     EXPECT_EQ(share(occluders, point_lamp({0, 0, 1e100}), {3, 0, -3}), 1.0);
     EXPECT_EQ(share(occluders, point_lamp({0, 0, 2}), {0, 0, -1e6}), 0.0);
-    Light wide = area_lamp(AreaShape::ellipse, 1e9, 1e9, 2);
+    FlatLight wide = area_lamp(AreaShape::ellipse, 1e9, 1e9, 2);
     const double seen = share(occluders, wide, {0, 0, -2}, up, {.samples = 256});
     EXPECT_TRUE(seen > 0.9 && seen <= 1.0) << seen;
     for (const double size : {1e-30, 1e-150, 1e150, 1e300}) {
         const Occluders scaled = occluders_of({moved(ball, {}, size)});
-        Light sun;
+        FlatLight sun;
         sun.kind = LightKind::sun;
         EXPECT_EQ(share(scaled, sun, {0, 0, -2 * size}), 0.0) << size;
         EXPECT_EQ(share(scaled, sun, {2 * size, 0, -2 * size}), 1.0) << size;
     }
-    Light far_up = point_lamp({0, 0, 1e308});
+    FlatLight far_up = point_lamp({0, 0, 1e308});
     for (const double x : {-1e308, 1e308}) {
         const double value = share(occluders, far_up, {x, 0, 0});
         EXPECT_TRUE(value >= 0.0 && value <= 1.0);
@@ -336,12 +336,12 @@ TEST(Visibility, TrianglesWithoutAreaStopNothing) {
 
 TEST(Visibility, LampsThatGiveNothingAreNotTraced) {
     const Occluders wall = occluders_of({half_plane(-1, 1)});
-    Light off = point_lamp({0, 0, 2});
+    FlatLight off = point_lamp({0, 0, 2});
     off.visible = false;
-    Light dark = off;
+    FlatLight dark = off;
     dark.visible = true;
     dark.power = 0;
-    Light negative = dark;
+    FlatLight negative = dark;
     negative.power = -5;
     EXPECT_EQ(share(wall, off), 1.0);
     EXPECT_EQ(share(wall, dark), 1.0);
@@ -365,7 +365,7 @@ TEST(Visibility, RefusalsNameTheEntry) {
     EXPECT_NE(refusal([&] { occluders_of({ends}, glm::dvec3(-1.7e308, 0, 0)); }).find("meshes is as far as"),
               std::string::npos);
     const Occluders occluders = occluders_of({shapes::sphere(1, 1)});
-    const Light lamp = point_lamp({0, 0, 3});
+    const FlatLight lamp = point_lamp({0, 0, 3});
     EXPECT_NE(refusal([&] {
                   share(occluders, lamp, {0, nan, 0});
               }).find("points[0] is (0, nan, 0)"),
@@ -378,7 +378,7 @@ TEST(Visibility, RefusalsNameTheEntry) {
               std::string::npos);
     EXPECT_NE(refusal([&] { share(occluders, lamp, {}, up, {.threads = -1}); }).find("threads is -1"),
               std::string::npos);
-    Light broken = lamp;
+    FlatLight broken = lamp;
     broken.power = nan;
     EXPECT_NE(refusal([&] { share(occluders, broken); }).find("power is nan"), std::string::npos);
 }

@@ -29,16 +29,16 @@ TEST(StudioLight, LampsBecomeSunsInWorldAxes) {
     const StudioLight studio = read_studio_light(data_file("two_lamps.sl"));
     ASSERT_EQ(studio.lights.size(), 2U) << "lamps with flag 0 are off";
     const Light& rim = studio.lights[0];
-    EXPECT_EQ(rim.kind, LightKind::sun);
-    EXPECT_EQ(rim.name, "light[0]");
-    EXPECT_EQ(rim.color, glm::dvec3(0.9, 0.45, 0.1));
+    EXPECT_EQ(rim.kind(), LightKind::sun);
+    EXPECT_EQ(rim.name(), "light[0]");
+    EXPECT_EQ(rim.color(), glm::dvec3(0.9, 0.45, 0.1));
     // Towards the lamp: right and away from the viewer (view z -0.8), so world (0.6, 0.8, 0); it shines the
     // other way.
-    EXPECT_EQ(rim.direction, glm::dvec3(-0.6, -0.8, 0.0));
-    EXPECT_EQ(studio.lights[1].name, "light[2]");
-    EXPECT_EQ(studio.lights[1].direction, glm::dvec3(0.0, 0.0, -1.0)) << "from above, straight down";
-    EXPECT_NEAR(studio.lights[1].power, 3.141592653589793, 1e-15);
-    for (const Light& light : studio.lights) EXPECT_NO_THROW(validate(light));
+    EXPECT_EQ(rim.direction(), glm::dvec3(-0.6, -0.8, 0.0));
+    EXPECT_EQ(studio.lights[1].name(), "light[2]");
+    EXPECT_EQ(studio.lights[1].direction(), glm::dvec3(0.0, 0.0, -1.0)) << "from above, straight down";
+    EXPECT_NEAR(studio.lights[1].power(), 3.141592653589793, 1e-15);
+    for (const Light& light : studio.lights) EXPECT_EQ(light.kind(), LightKind::sun);
 }
 
 TEST(StudioLight, SaysWhatASunCannotHold) {
@@ -56,7 +56,7 @@ TEST(StudioLight, FollowsTheCamera) {
         read_studio_light(data_file("two_lamps.sl"), camera_axes({quarter, 0.0, quarter}));
     const glm::dvec3 expected(0.8, -0.6,
                               0.0);  // towards the lamp: 0.6 right (+Y), 0.8 away from the viewer (-X)
-    EXPECT_NEAR(glm::distance(studio.lights[0].direction, expected), 0.0, 1e-15);
+    EXPECT_NEAR(glm::distance(studio.lights[0].direction(), expected), 0.0, 1e-15);
     const glm::dmat3 front = camera_axes({quarter, 0.0, 0.0});
     for (int column = 0; column < 3; ++column)
         EXPECT_NEAR(glm::distance(front[column], front_view[column]), 0.0, 1e-15);
@@ -82,14 +82,14 @@ TEST(StudioLight, BlendersRimIsTwoLightsFromBehindAndOneFromTheFront) {
         << path << " is missing; Debian's blender-data has it, or SKINGLOW_RIM_SL names another";
     const StudioLight studio = read_studio_light(path);
     ASSERT_EQ(studio.lights.size(), 3U);
-    EXPECT_GT(studio.lights[0].color.r, studio.lights[2].color.r);
+    EXPECT_GT(studio.lights[0].color().r, studio.lights[2].color().r);
     // The camera looks along +Y, so what comes from behind the head shines along -Y.
-    EXPECT_LT(studio.lights[0].direction.y, 0.0);
-    EXPECT_GT(studio.lights[1].direction.y, 0.0);
-    EXPECT_LT(studio.lights[2].direction.y, 0.0);
-    EXPECT_GT(studio.lights[0].direction.x, 0.0) << "from the viewer's left";
-    EXPECT_LT(studio.lights[2].direction.x, 0.0);
-    for (const Light& light : studio.lights) EXPECT_NEAR(glm::length(light.direction), 1.0, 1e-3);
+    EXPECT_LT(studio.lights[0].direction().y, 0.0);
+    EXPECT_GT(studio.lights[1].direction().y, 0.0);
+    EXPECT_LT(studio.lights[2].direction().y, 0.0);
+    EXPECT_GT(studio.lights[0].direction().x, 0.0) << "from the viewer's left";
+    EXPECT_LT(studio.lights[2].direction().x, 0.0);
+    for (const Light& light : studio.lights) EXPECT_NEAR(glm::length(light.direction()), 1.0, 1e-3);
 }
 
 TEST(StudioLight, RefusesDamagedFilesAndNamesKeyAndLine) {

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <skinglow/mesh.h>
+#include <skinglow/rig.h>
+
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <skinglow/mesh.h>
 #include <span>
 #include <vector>
-
-#include "light/light.h"
 
 /// How much of each light arrives at a surface, with other meshes in the way.
 ///
@@ -74,7 +74,7 @@ struct VisibleFraction {
 /// @param normals    one per point, finite, of any length; (0, 0, 0) receives nothing
 /// @param options    see there
 /// @throws std::invalid_argument naming the entry
-VisibleFraction visible_fraction(const Occluders& occluders, std::span<const Light> lights,
+VisibleFraction visible_fraction(const Occluders& occluders, const PreparedRig& lights,
                                  std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals,
                                  const VisibilityOptions& options = {});
 

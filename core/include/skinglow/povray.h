@@ -1,5 +1,10 @@
 #pragma once
 
+#include <skinglow/light.h>
+#include <skinglow/light_weights.h>
+#include <skinglow/lut.h>
+#include <skinglow/mesh.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -7,14 +12,9 @@
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
-#include <skinglow/lut.h>
-#include <skinglow/mesh.h>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "light/light.h"
-#include "light/light_weights.h"
 
 /// POV-Ray scenes of glowing skin, as text: world coordinates as Blender has them (right-handed, z up), one unit of
 /// length a meter for the lights, radians, linear Rec.709.
@@ -91,7 +91,7 @@ struct PovrayLut {
     LutMode mode = LutMode::paper;
     LutAxis axis{default_lut_size, default_max_thickness_mm};
     PovrayGlow glow = PovrayGlow::macros;
-    std::string image;  ///< of PovrayGlow::image: EXR in the scene's folder, name without a folder
+    std::string image;         ///< of PovrayGlow::image: EXR in the scene's folder, name without a folder
     std::vector<double> base;  ///< mode paper by macros: the gray base lookup, axis.size() entries, 0 or more
     glm::dvec3 blood_weight = paper_blood_weight;  ///< B of Eq. 1
     AttenuationCoefficients coefficients;          ///< of Eq. 2
@@ -113,7 +113,7 @@ struct PovrayScene {
     std::vector<Light> lights;  ///< those that are off are left out
     PovrayLut lut;
     std::optional<PovraySurface> surface;  ///< none: only the glow, no light_source is needed
-    glm::dvec3 background{0.0};  ///< linear Rec.709 radiance, 0 or more
+    glm::dvec3 background{0.0};            ///< linear Rec.709 radiance, 0 or more
 };
 
 /// The files of a POV-Ray 3.7 scene, by name; only those that it uses. Text alone: whoever calls writes them, all into

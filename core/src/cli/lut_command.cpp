@@ -1,4 +1,5 @@
 #include <skinglow/lut.h>
+#include <skinglow/rig.h>
 
 #include <iostream>
 #include <memory>
@@ -12,7 +13,6 @@
 #include "files/lut_file.h"
 #include "files/lut_preview.h"
 #include "numerics/argument_check.h"
-#include "rig/irradiance.h"
 
 namespace skinglow::cli {
 namespace {

@@ -32,7 +32,7 @@ std::vector<LightShare> light_shares(const LightRig& rig, const glm::dvec3& sum)
     std::vector<LightShare> shares;
     for (std::size_t i = 0; i < rig.lights.size(); ++i) {
         const Light& light = rig.lights[i];
-        LightShare row{light.name.empty() ? "lights[" + std::to_string(i) + "]" : light.name,
+        LightShare row{light.name().empty() ? "lights[" + std::to_string(i) + "]" : light.name(),
                        is_on(light),
                        {},
                        0.0,
@@ -40,8 +40,8 @@ std::vector<LightShare> light_shares(const LightRig& rig, const glm::dvec3& sum)
                        0.0};
         if (row.on) {
             const double distance = light_distance(light, rig.point);
-            if (light.kind != LightKind::sun) row.distance = distance;
-            row.attenuation = light.kind == LightKind::sun ? 1.0 : attenuation(distance, rig.coefficients);
+            if (light.kind() != LightKind::sun) row.distance = distance;
+            row.attenuation = light.kind() == LightKind::sun ? 1.0 : attenuation(distance, rig.coefficients);
         }
         if (luminance(sum) > 0.0) row.share = luminance(weights[i]) / luminance(sum);
         shares.push_back(row);
@@ -64,7 +64,7 @@ void print_text(const LightRig& rig, const std::vector<LightShare>& shares, cons
     };
     for (std::size_t i = 0; i < shares.size(); ++i) {
         const LightShare& row = shares[i];
-        add(row.name, std::string(to_text(rig.lights[i].kind)),
+        add(row.name, std::string(to_text(rig.lights[i].kind())),
             row.distance ? short_number(*row.distance) : "-", row.on ? short_number(row.attenuation) : "off",
             row.weight, short_number(row.share * 100.0) + "%");
     }
@@ -85,7 +85,7 @@ void print_as_json(const LightRig& rig, const std::vector<LightShare>& shares, c
         const LightShare& row = shares[i];
         nlohmann::ordered_json light;
         light["name"] = row.name;
-        light["kind"] = to_text(rig.lights[i].kind);
+        light["kind"] = to_text(rig.lights[i].kind());
         light["on"] = row.on;
         light["distance"] = row.distance ? nlohmann::ordered_json(*row.distance) : nlohmann::ordered_json();
         light["attenuation"] = row.attenuation;

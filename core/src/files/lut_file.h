@@ -1,5 +1,6 @@
 #pragma once
 
+#include <skinglow/light_weights.h>
 #include <skinglow/lut.h>
 
 #include <cstddef>
@@ -10,7 +11,6 @@
 #include <vector>
 
 #include "files/transfer_function.h"
-#include "light/light_weights.h"
 
 /// Lookup tables as files. A table is an image one texel high; entry i is texel i (LutAxis). What the pixels
 /// do not say (the thickness axis in mm, how the table was made) is text in the header, keys "skinglow:...":

@@ -1,48 +1,39 @@
-#include "light/light.h"
+#include <skinglow/light.h>
 
 #include <array>
-#include <numbers>
 #include <utility>
 
+#include "light/light_fields.h"
 #include "numerics/argument_check.h"
 
 namespace skinglow {
 namespace {
 
-using NamedKind = std::pair<LightKind, std::string_view>;
-constexpr std::array<NamedKind, 4> kinds = {
-    NamedKind{LightKind::point, "POINT"}, NamedKind{LightKind::sun, "SUN"},
-    NamedKind{LightKind::spot, "SPOT"}, NamedKind{LightKind::area, "AREA"}};
+/// In the order of LightKind.
+constexpr std::array<std::string_view, 4> kind_names = {"POINT", "SUN", "SPOT", "AREA"};
 
-void require_between(const std::string& name, double value, double least, double most,
-                     std::string_view allowed) {
-    // Written so that NaN is refused too.
-    if (!(value >= least && value <= most)) refuse_argument(name, to_text(value), allowed);
+bool within(double value, FieldRange range) {
+    return value >= limits(range).min && value <= limits(range).max;  // NaN is not
+}
+bool within(const glm::dvec3& value, FieldRange range) {
+    return within(value.x, range) && within(value.y, range) && within(value.z, range);
 }
 
-void validate_shape(const Light& light, const std::string& who) {
-    // A host's single-precision pi is a little above pi.
-    constexpr double pi = std::numbers::pi_v<float>;
-    constexpr std::string_view half_turn = "an angle of 0 to pi radians";
-    switch (light.kind) {
-        case LightKind::point:
-            require_not_negative(who + "radius", light.radius);
-            break;
-        case LightKind::sun:
-            require_between(who + "sun_angle", light.sun_angle, 0.0, pi, half_turn);
-            break;
-        case LightKind::spot:
-            require_not_negative(who + "radius", light.radius);
-            require_between(who + "spot_angle", light.spot_angle, 0.0, pi, half_turn);
-            require_between(who + "spot_blend", light.spot_blend, 0.0, 1.0, "a number of 0 to 1");
-            break;
-        case LightKind::area:
-            require_not_negative(who + "size_x", light.size_x);
-            require_not_negative(who + "size_y", light.size_y);
-            require_finite(who + "tangent", light.tangent);
-            require_between(who + "spread", light.spread, 0.0, pi, half_turn);
-            break;
+std::string allowed(double /*value*/, FieldRange range) {
+    switch (range) {
+        case FieldRange::any:
+            return "a finite number";
+        case FieldRange::not_negative:
+            return "a finite number, 0 or more";
+        case FieldRange::fraction:
+            return "a number of 0 to 1";
+        case FieldRange::half_turn:
+            return "an angle of 0 to pi radians";
     }
+    return {};
+}
+std::string allowed(const glm::dvec3& /*value*/, FieldRange range) {
+    return range == FieldRange::any ? "three finite numbers" : "three finite numbers, 0 or more";
 }
 
 }  // namespace
@@ -58,33 +49,50 @@ AreaShape area_shape(std::string_view name) {
 }
 
 std::string_view to_text(LightKind kind) {
-    for (const auto& [known, name] : kinds) {
-        if (known == kind) return name;
-    }
-    refuse_argument("light kind", std::to_string(static_cast<int>(kind)), "POINT, SUN, SPOT or AREA");
+    return kind_names.at(static_cast<std::size_t>(kind));
 }
 
 LightKind light_kind(std::string_view name) {
-    for (const auto& [kind, known] : kinds) {
-        if (known == name) return kind;
+    for (std::size_t i = 0; i < kind_names.size(); ++i) {
+        if (kind_names[i] == name) return static_cast<LightKind>(i);
     }
     refuse_argument("light kind", "\"" + std::string(name) + "\"", "POINT, SUN, SPOT or AREA");
 }
 
-void validate(const Light& light) {
-    const std::string who = light.name.empty() ? "light " : "light \"" + light.name + "\" ";
-    require_not_negative(who + "color", light.color);
-    require_finite(who + "position", light.position);
-    require_finite(who + "direction", light.direction);
-    require_finite(who + "power", light.power);
-    if (light.kind != LightKind::point && light.direction == glm::dvec3(0.0)) {
-        refuse_argument(who + "direction", to_text(light.direction), "a vector of length above 0");
-    }
-    validate_shape(light, who);
+Light::Light(LightSettings settings) : settings_(std::move(settings)) {
+    const auto named = [&](std::string_view key) {
+        return (name().empty() ? "light " : "light \"" + name() + "\" ") + std::string(key);
+    };
+    for_each_field(settings_, [&](const auto& field, const auto& owner) {
+        const auto& value = owner.*field.member;
+        if constexpr (requires { within(value, field.range); }) {
+            if (!within(value, field.range))
+                refuse_argument(named(field.key), to_text(value), allowed(value, field.range));
+        }
+    });
+    if (kind() != LightKind::point && direction() == glm::dvec3(0.0))
+        refuse_argument(named("direction"), to_text(direction()), "a vector of length above 0");
 }
 
 bool is_on(const Light& light) {
-    return light.visible && light.power != 0.0 && light.color != glm::dvec3(0.0);
+    return light.visible() && light.power() != 0.0 && light.color() != glm::dvec3(0.0);
 }
 
+namespace detail {
+
+LightShape default_shape(LightKind kind) {
+    switch (kind) {
+        case LightKind::point:
+            return PointLight{};
+        case LightKind::sun:
+            return SunLight{};
+        case LightKind::spot:
+            return SpotLight{};
+        case LightKind::area:
+            return AreaLight{};
+    }
+    return {};
+}
+
+}  // namespace detail
 }  // namespace skinglow

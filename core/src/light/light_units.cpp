@@ -1,5 +1,4 @@
-#include "light/light_units.h"
-
+#include <skinglow/light.h>
 #include <skinglow/spectrum.h>
 
 #include <algorithm>
@@ -23,18 +22,17 @@ double exposure_factor(double stops) {
 }
 
 double unnormalized_power_factor(const Light& light) {
-    validate(light);
     constexpr double pi = std::numbers::pi;
-    switch (light.kind) {
-        case LightKind::sun:
-            return pi * std::sin(0.5 * light.sun_angle) * std::sin(0.5 * light.sun_angle);
-        case LightKind::area:
-            return light.size_x * light.size_y * (light.area_shape == AreaShape::ellipse ? pi / 4 : 1.0);
-        case LightKind::point:
-        case LightKind::spot:
-            return 4 * pi * light.radius * light.radius;
-    }
-    refuse_argument("light kind", std::to_string(static_cast<int>(light.kind)), "POINT, SUN, SPOT or AREA");
+    const auto factor = [](const auto& shape) {
+        if constexpr (requires { shape.radius; }) {
+            return 4 * pi * shape.radius * shape.radius;
+        } else if constexpr (requires { shape.sun_angle; }) {
+            return pi * std::sin(0.5 * shape.sun_angle) * std::sin(0.5 * shape.sun_angle);
+        } else {
+            return shape.size_x * shape.size_y * (shape.area_shape == AreaShape::ellipse ? pi / 4 : 1.0);
+        }
+    };
+    return std::visit(factor, light.shape());
 }
 
 glm::dvec3 black_body_color(double kelvin) {

@@ -1,8 +1,9 @@
-#include "light/light_weights.h"
+#include <skinglow/light_weights.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/vector.h"
 #include "numerics/argument_check.h"
 #include "numerics/compensated_sum.h"
 
@@ -18,10 +19,9 @@ double attenuation_at(double distance, const AttenuationCoefficients& k) {
 
 glm::dvec3 weight_of(const Light& light, const glm::dvec3& point,
                      const AttenuationCoefficients& coefficients) {
-    validate(light);
     if (!is_on(light)) return glm::dvec3(0.0);
-    if (light.kind == LightKind::sun) return light.color;
-    return light.color * attenuation_at(light_distance(light, point), coefficients);
+    if (light.kind() == LightKind::sun) return light.color();
+    return light.color() * attenuation_at(light_distance(light, point), coefficients);
 }
 
 }  // namespace
@@ -38,12 +38,10 @@ double attenuation(double distance, const AttenuationCoefficients& coefficients)
 }
 
 double light_distance(const Light& light, const glm::dvec3& point) {
-    if (light.kind == LightKind::sun) return 0.0;
-    // Three-argument hypot scales by itself; glm::distance would overflow beyond 1e154.
-    const glm::dvec3 apart = light.position - point;
-    const double distance = std::hypot(apart.x, apart.y, apart.z);
+    if (light.kind() == LightKind::sun) return 0.0;
+    const double distance = length(light.position() - point);
     if (!std::isfinite(distance)) {
-        refuse_argument("distance of light \"" + light.name + "\"", to_text(distance),
+        refuse_argument("distance of light \"" + light.name() + "\"", to_text(distance),
                         "points a finite distance apart");
     }
     return distance;

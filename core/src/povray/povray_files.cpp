@@ -1,6 +1,7 @@
+#include <skinglow/povray.h>
+
 #include <algorithm>
 #include <iterator>
-#include <skinglow/povray.h>
 #include <utility>
 
 #include "numerics/argument_check.h"
@@ -89,7 +90,6 @@ void validate(const PovrayScene& scene) {
     detail::validate(scene.camera);
     detail::validate(scene.lut);
     require_not_negative("background", scene.background);
-    for (const Light& light : scene.lights) validate(light);
     if (scene.surface) require_not_negative("surface color", scene.surface->color);
 }
 

@@ -32,28 +32,28 @@ void add_point_at(SdlText& text, const PreparedLight& light) {
 
 /// Blender's inverse square in POV-Ray: attenuation is 2 / (1 + (d / f)^2), so 1 / (2 f^2) of the light makes
 /// 1 / (f^2 + d^2). f is a soft ball's radius, which has that very law, else so small that it does not show.
-double fade_distance(const Light& light, const Box& bounds) {
+double fade_distance(const PreparedLight& light, const Box& bounds) {
     constexpr double min_fade = 1e-4 * min_light_distance;
-    const bool has_disk = light.kind == LightKind::point || light.kind == LightKind::spot;
-    if (has_disk && light.soft_falloff && light.radius > 0.0) return std::max(light.radius, min_fade);
+    if (light.soft_falloff() && light.radius() > 0.0) return std::max(light.radius(), min_fade);
     const double size = 2.0 * bounds.radius();
-    return std::max(1e-4 * std::max(bounds.min_distance(light.position), 1e-3 * size), min_fade);
+    return std::max(1e-4 * std::max(bounds.min_distance(light.position()), 1e-3 * size), min_fade);
 }
 
 /// "rgb <...>", refused by the light's name where it is beyond the largest double.
 void add_color(SdlText& text, const Light& light, double factor) {
-    text.add("\n  rgb ").add(require_finite("light \"" + light.name + "\" intensity", light.color * factor));
+    text.add("\n  rgb ")
+        .add(require_finite("light \"" + light.name() + "\" intensity", light.color() * factor));
 }
 
 void add_fading_color(SdlText& text, const Light& light, double power_to_intensity, const Box& bounds) {
-    const double f = fade_distance(light, bounds);
+    const double f = fade_distance(PreparedLight(light), bounds);
     // One factor after the other, so that no square over- or underflows.
-    add_color(text, light, light.power / f * power_to_intensity / (2.0 * f));
+    add_color(text, light, light.power() / f * power_to_intensity / (2.0 * f));
     text.add("\n  fade_distance ").add(f).add(" fade_power 2");
 }
 
 /// POV-Ray's cone fades by the same smoothstep in the cosine as Blender's.
-void add_spot(SdlText& text, const Light& light, const PreparedLight& prepared) {
+void add_spot(SdlText& text, const SpotLight& light, const PreparedLight& prepared) {
     const double cos_edge = std::cos(0.5 * light.spot_angle);
     const double cos_fade = cos_edge + light.spot_blend * (1.0 - cos_edge);
     add_point_at(text, prepared);
@@ -75,7 +75,7 @@ double spread_tightness(double half_spread) {
     return 1.0 + std::log(wanted / smoothstep) / log_cosine;
 }
 
-void add_area(SdlText& text, const Light& light, const PreparedLight& prepared) {
+void add_area(SdlText& text, const AreaLight& light, const PreparedLight& prepared) {
     // A Lambert emitter's cosine is a cone of half a turn with tightness 1 and a hard edge.
     const bool lambert = light.spread > lambert_spread;
     const double half_spread = prepared.area()->half_spread();
@@ -96,7 +96,7 @@ void add_sun(SdlText& text, const Light& light, const PreparedLight& prepared, c
     const glm::dvec3 center = bounds.center();
     const double distance = visible_step(center, 2.0 * std::max(2.0 * bounds.radius(), 1.0));
     text.add(center - distance * prepared.direction());
-    add_color(text, light, light.power / pi);
+    add_color(text, light, light.power() / pi);
     text.add("\n  parallel point_at ").add(center);
 }
 
@@ -108,18 +108,20 @@ std::string povray_lights_text(const std::vector<Light>& lights_on, const Box& b
     for (const Light& light : lights_on) {
         const PreparedLight prepared(light);
         if (prepared.dark()) continue;
-        text.add("// " + sdl_comment(light.name) + " (").add(to_text(light.kind)).add(")\nlight_source {\n  ");
-        if (light.kind == LightKind::sun) {
+        text.add("// " + sdl_comment(light.name()) + " (")
+            .add(to_text(light.kind()))
+            .add(")\nlight_source {\n  ");
+        if (light.kind() == LightKind::sun) {
             add_sun(text, light, prepared, bounds);
-        } else if (light.kind == LightKind::area) {
-            text.add(light.position);
-            const double gain = light.spread > lambert_spread ? 1.0 : prepared.area()->axis_gain();
+        } else if (const auto* area = std::get_if<AreaLight>(&light.shape())) {
+            text.add(light.position());
+            const double gain = area->spread > lambert_spread ? 1.0 : prepared.area()->axis_gain();
             add_fading_color(text, light, gain / (pi * pi), bounds);
-            add_area(text, light, prepared);
+            add_area(text, *area, prepared);
         } else {
-            text.add(light.position);
+            text.add(light.position());
             add_fading_color(text, light, 1.0 / (4.0 * pi * pi), bounds);
-            if (light.kind == LightKind::spot) add_spot(text, light, prepared);
+            if (const auto* spot = std::get_if<SpotLight>(&light.shape())) add_spot(text, *spot, prepared);
         }
         text.add("\n}\n");
     }

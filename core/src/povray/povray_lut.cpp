@@ -19,11 +19,13 @@ void add_array(SdlText& text, std::string_view name, std::size_t size, std::size
 }
 
 void add_lights(SdlText& text, const std::vector<Light>& lights) {
-    const auto quoted_kind = [&](std::size_t i) { return '"' + std::string(to_text(lights[i].kind)) + '"'; };
+    const auto quoted_kind = [&](std::size_t i) {
+        return '"' + std::string(to_text(lights[i].kind())) + '"';
+    };
     add_array(text, "Light_Kinds", lights.size(), 8, quoted_kind);
-    add_array(text, "Light_Colors", lights.size(), 4, [&](std::size_t i) { return lights[i].color; });
-    add_array(text, "Light_Positions", lights.size(), 4, [&](std::size_t i) { return lights[i].position; });
-    add_array(text, "Light_Powers", lights.size(), 8, [&](std::size_t i) { return lights[i].power; });
+    add_array(text, "Light_Colors", lights.size(), 4, [&](std::size_t i) { return lights[i].color(); });
+    add_array(text, "Light_Positions", lights.size(), 4, [&](std::size_t i) { return lights[i].position(); });
+    add_array(text, "Light_Powers", lights.size(), 8, [&](std::size_t i) { return lights[i].power(); });
 }
 
 void add_paper_table(SdlText& text, const PovrayLut& lut, const std::vector<Light>& lights) {
@@ -111,9 +113,13 @@ void validate(const PovrayLut& lut) {
 std::string povray_lut_text(const PovrayLut& lut, const std::vector<Light>& lights_on) {
     SdlText text;
     text.add("// Lookup of the light that comes through, mode `").add(to_text(lut.mode)).add("`: ");
-    text.add(static_cast<std::uint32_t>(lut.axis.size())).add(" entries, 0 to ").add(lut.axis.max_thickness_mm());
+    text.add(static_cast<std::uint32_t>(lut.axis.size()))
+        .add(" entries, 0 to ")
+        .add(lut.axis.max_thickness_mm());
     text.add(" mm, at the centers of u's texels. Linear Rec.709.\n#include \"skinglow.inc\"\n");
-    text.add("#declare Skinglow_Strength = ").add(lut.strength).add(";  // radiance shown = strength * lookup\n");
+    text.add("#declare Skinglow_Strength = ")
+        .add(lut.strength)
+        .add(";  // radiance shown = strength * lookup\n");
     if (lut.glow == PovrayGlow::image) {
         text.add("#declare Skinglow_Lookup = ")
             .add("Skinglow_Image_Pigment(" + sdl_string("LUT image", lut.image) + ")\n");

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <skinglow/light.h>
+
 #include <glm/vec3.hpp>
 
-#include "light/light.h"
 #include "numerics/detail.h"
 
 namespace skinglow::detail {

@@ -28,19 +28,30 @@ constexpr double lowest = 1e-9;            // height over an area lamp, in units
 
 }  // namespace
 
-PreparedLight::PreparedLight(const Light& light)
-    : kind_(light.kind), position_(light.position), radius_(light.radius), soft_falloff_(light.soft_falloff) {
-    if (kind_ == LightKind::point) return;
-    frame_ = frame_around(light.direction, light.tangent);
-    if (kind_ == LightKind::sun) sin_sun_radius_ = std::sin(0.5 * light.sun_angle);
-    if (kind_ == LightKind::spot) spot_.emplace(light.spot_angle, light.spot_blend, light.spot_cosine);
-    dark_ = (kind_ == LightKind::spot && light.spot_angle == 0.0) ||
-            (kind_ == LightKind::area && light.spread == 0.0);
-    if (kind_ != LightKind::area) return;
-    area_scale_ = std::max({0.5 * light.size_x, 0.5 * light.size_y, smallest});
-    area_.emplace(light.area_shape, std::max(0.5 * light.size_x / area_scale_, thinnest),
-                  std::max(0.5 * light.size_y / area_scale_, thinnest),
-                  std::max(light.spread, narrowest_spread));
+PreparedLight::PreparedLight(const Light& light) : kind_(light.kind()), position_(light.position()) {
+    const auto* area = std::get_if<AreaLight>(&light.shape());
+    if (kind_ != LightKind::point)
+        frame_ = frame_around(light.direction(), area != nullptr ? area->tangent : glm::dvec3(1, 0, 0));
+    std::visit(
+        [this](const auto& shape) {
+            if constexpr (requires { shape.radius; }) {
+                radius_ = shape.radius;
+                soft_falloff_ = shape.soft_falloff;
+            }
+        },
+        light.shape());
+    if (const auto* sun = std::get_if<SunLight>(&light.shape()))
+        sin_sun_radius_ = std::sin(0.5 * sun->sun_angle);
+    if (const auto* spot = std::get_if<SpotLight>(&light.shape())) {
+        spot_.emplace(spot->spot_angle, spot->spot_blend, spot->spot_cosine);
+        dark_ = spot->spot_angle == 0.0;
+    }
+    if (area == nullptr) return;
+    dark_ = area->spread == 0.0;
+    area_scale_ = std::max({0.5 * area->size_x, 0.5 * area->size_y, smallest});
+    area_.emplace(area->area_shape, std::max(0.5 * area->size_x / area_scale_, thinnest),
+                  std::max(0.5 * area->size_y / area_scale_, thinnest),
+                  std::max(area->spread, narrowest_spread));
 }
 
 glm::dvec3 PreparedLight::to_light(const glm::dvec3& point) const {

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <skinglow/light.h>
+
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
 #include "geometry/vector.h"
-#include "light/light.h"
 #include "numerics/detail.h"
 #include "radiometry/area_irradiance.h"
 #include "radiometry/spot_profile.h"
@@ -20,7 +21,6 @@ constexpr double min_light_distance = 1e-6;
 /// arrives. All values are in 1/m^2 (1 for a sun, whose power is W/m^2 already), 0 or more, and finite.
 class PreparedLight {
   public:
-    /// @param light  checked by `validate`
     explicit PreparedLight(const Light& light);
 
     /// Irradiance per unit of power at a point whose surface faces along `normal` (unit), with the cosine and
@@ -67,8 +67,8 @@ class PreparedLight {
     LightKind kind_;
     glm::dvec3 position_;
     glm::dmat3 frame_{1.0};
-    double radius_;
-    bool soft_falloff_;
+    double radius_ = 0;
+    bool soft_falloff_ = true;
     double sin_sun_radius_ = 0;
     std::optional<SpotProfile> spot_;
     std::optional<AreaEmitter> area_;  ///< in units of area_scale_, so that no size over- or underflows

@@ -1,8 +1,9 @@
+#include <skinglow/occlusion.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <skinglow/occlusion.h>
 #include <string>
 
 #include "numerics/argument_check.h"
@@ -10,7 +11,7 @@
 #include "radiometry/prepared_light.h"
 #include "rays/light_sampling.h"
 #include "rays/occluder_scene.h"
-#include "rig/surface_irradiance.h"
+#include "rig/rig_data.h"
 
 namespace skinglow {
 namespace {
@@ -60,8 +61,7 @@ struct Query {
                     std::size_t index) const {
         if (is_sharp(light, point)) {
             const bool is_sun = light.kind() == LightKind::sun;
-            const double distance =
-                is_sun ? std::numeric_limits<double>::infinity() : light.distance(point);
+            const double distance = is_sun ? std::numeric_limits<double>::infinity() : light.distance(point);
             return sees(point, {light.to_light(point), distance, 1.0}) ? 1.0 : 0.0;
         }
         const ShiftedLattice lattice(index, samples);
@@ -110,19 +110,14 @@ double weighted_mean(std::span<const double> values, std::span<const double> wei
 
 }  // namespace
 
-VisibleFraction visible_fraction(const Occluders& occluders, std::span<const Light> lights,
+VisibleFraction visible_fraction(const Occluders& occluders, const PreparedRig& rig,
                                  std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals,
                                  const VisibilityOptions& options) {
     validate(options);
-    require_places(points, normals);
+    require_surface(points, normals);
     const OccluderScene& scene = occluders.scene();
     const Query query{scene, scene.triangles_of(options.excluded), options.samples};
-    std::vector<PreparedLight> prepared;
-    prepared.reserve(lights.size());
-    for (const Light& light : lights) {
-        validate(light);
-        prepared.emplace_back(light);
-    }
+    const std::vector<RigLight>& lights = rig.data().prepared;
     const std::size_t columns = lights.size();
     VisibleFraction result{std::vector<double>(points.size() * columns, 1.0),
                            std::vector<double>(columns, 1.0)};
@@ -132,10 +127,11 @@ VisibleFraction visible_fraction(const Occluders& occluders, std::span<const Lig
         for (std::size_t i = begin; i < end; ++i) {
             const std::size_t p = i / columns;
             const std::size_t k = i % columns;
-            if (!is_on(lights[k]) || normals[p] == glm::dvec3(0.0)) continue;
+            if (!lights[k].shines || normals[p] == glm::dvec3(0.0)) continue;
             const glm::dvec3 normal = unit(normals[p]);
-            irradiance[i] = prepared[k].irradiance(points[p], normal, weight_tolerance);
-            if (irradiance[i] > 0.0) result.at_points[i] = query.fraction(prepared[k], points[p], normal, p);
+            irradiance[i] = lights[k].light.irradiance(points[p], normal, weight_tolerance);
+            if (irradiance[i] > 0.0)
+                result.at_points[i] = query.fraction(lights[k].light, points[p], normal, p);
         }
     };
     for_each_block(irradiance.size(), options.threads, work, {});

@@ -6,55 +6,57 @@
 #include <glm/vec2.hpp>
 #include <numbers>
 
+#include "geometry/vector.h"
+
 namespace skinglow {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 /// A spot without blend has a rim all the same, so narrow that single precision just resolves it.
 constexpr double narrowest_rim = 1e-6;
-/// Keeps 0 / 0 away where a lamp has no size.
+/// Keeps 0 / 0 away where a light has no size.
 constexpr double tiny = 1e-300;
 
-/// The cosine to a lamp with an angular radius of that sine, of which the horizon hides a part: between
+/// The cosine to a light with an angular radius of that sine, of which the horizon hides a part: between
 /// -sine and sine a parabola, whose ends fit the straight parts in value and slope.
-double received_share(double cosine, double sine) {
-    const double risen = std::clamp(cosine + sine, 0.0, 2.0 * sine);
-    return risen * risen / (4.0 * sine + tiny) + std::max(cosine - sine, 0.0);
+double received_fraction(double cosine, double sine) {
+    const double above = std::clamp(cosine + sine, 0.0, 2.0 * sine);
+    return above * above / (4.0 * sine + tiny) + std::max(cosine - sine, 0.0);
 }
 
 SurfaceTerm sun_term(const PreparedLight& light, const glm::dvec3& strength) {
     SurfaceTerm term;
-    term.place = term.against_axis = -light.direction();
-    term.positional = 0.0;
+    term.position = term.reverse_axis = -light.direction();
+    term.is_positional = 0.0;
     const double sine = std::min(light.sin_sun_radius(), 1.0 - 1e-9);
-    term.square = sine * sine / (1.0 - sine * sine);  // seen from a distance of 1
-    term.strength = strength * (1.0 + term.square);
+    term.radius_sq = sine * sine / (1.0 - sine * sine);  // seen from a distance of 1
+    term.strength = strength * (1.0 + term.radius_sq);
     return term;
 }
 
-SurfaceTerm ball_term(const PreparedLight& light, const glm::dvec3& strength, const glm::dvec3& middle) {
+SurfaceTerm ball_term(const PreparedLight& light, const glm::dvec3& strength, const glm::dvec3& center) {
     SurfaceTerm term;
-    term.place = light.position();
-    term.square = std::max(light.radius() * light.radius(), min_light_distance * min_light_distance);
+    term.position = light.position();
+    term.radius_sq = std::max(light.radius() * light.radius(), min_light_distance * min_light_distance);
     term.strength = strength / (4.0 * pi);
     if (!light.soft_falloff()) {
-        const double away = std::max(light.distance(middle), light.radius());
-        if (away > 0.0) term.strength *= 1.0 + term.square / away / away;
+        const double distance = std::max(light.distance(center), light.radius());
+        if (distance > 0.0) term.strength *= 1.0 + term.radius_sq / distance / distance;
     }
     if (light.kind() != LightKind::spot) return term;
     const SpotProfile& spot = *light.spot();
     const double rim = std::max(spot.cos_fade_start() - spot.cos_edge(), narrowest_rim);
-    term.against_axis = -light.direction();
-    term.by_cosine = 1.0 / rim;
-    term.constant = -spot.cos_edge() / rim;
-    term.smooth = 1.0;
-    term.cosine = spot.with_cosine() ? 1.0 : 0.0;
+    term.reverse_axis = -light.direction();
+    term.cos_scale = 1.0 / rim;
+    term.bias = -spot.cos_edge() / rim;
+    term.smoothstep = 1.0;
+    term.cosine_falloff = spot.with_cosine() ? 1.0 : 0.0;
     return term;
 }
 
 using Tiles = std::vector<glm::dvec2>;
 
-/// Middles of even tiles of a rectangle, in units of its half axes.
+/// Centers of equal tiles of a rectangle, in units of its half axes.
 Tiles rectangle_tiles(int columns, int rows) {
     Tiles tiles;
     tiles.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
@@ -65,7 +67,7 @@ Tiles rectangle_tiles(int columns, int rows) {
     return tiles;
 }
 
-/// Centers of mass of even pieces of a unit disk: the whole, halves, quarters, or an inner and an outer ring
+/// Centers of mass of equal pieces of a unit disk: the whole, halves, quarters, or an inner and an outer ring
 /// of quarters each. A sector of half angle a between radii p and r has its own at 2 sin(a) / (3 a) (r^3 -
 /// p^3) / (r^2 - p^2).
 Tiles disk_tiles(int columns, int rows) {
@@ -90,18 +92,19 @@ std::vector<SurfaceTerm> area_terms(const PreparedLight& light, const glm::dvec3
         area.shape() == AreaShape::ellipse ? disk_tiles(columns, rows) : rectangle_tiles(columns, rows);
     const auto count = static_cast<double>(tiles.size());
     SurfaceTerm term;
-    term.against_axis = -light.direction();
+    term.reverse_axis = -light.direction();
     // On its axis a disk of this radius gives P / (pi (d^2 + r^2)).
-    term.square = std::max(area.area() * scale * scale / pi / count, min_light_distance * min_light_distance);
+    term.radius_sq =
+        std::max(area.area() * scale * scale / pi / count, min_light_distance * min_light_distance);
     term.strength = strength * (area.axis_gain() / pi / count);
-    term.by_cosine = 1.0;
-    term.constant = 0.0;
-    term.by_sine = area.spreads() ? -1.0 / std::tan(area.half_spread()) : 0.0;
+    term.cos_scale = 1.0;
+    term.bias = 0.0;
+    term.sin_scale = area.spreads() ? -1.0 / std::tan(area.half_spread()) : 0.0;
     std::vector<SurfaceTerm> terms;
     terms.reserve(tiles.size());
     for (const glm::dvec2& tile : tiles) {
-        term.place = light.position() + scale * (tile.x * area.half_x() * light.frame()[0] +
-                                                 tile.y * area.half_y() * light.frame()[1]);
+        term.position = light.position() + scale * (tile.x * area.half_x() * light.frame()[0] +
+                                                    tile.y * area.half_y() * light.frame()[1]);
         terms.push_back(term);
     }
     return terms;
@@ -111,25 +114,26 @@ std::vector<SurfaceTerm> area_terms(const PreparedLight& light, const glm::dvec3
 
 glm::dvec3 SurfaceTerm::irradiance(const glm::dvec3& point, const glm::dvec3& normal,
                                    const AngularCubic& angular) const {
-    const glm::dvec3 way = place - positional * point;
-    const double length = std::hypot(way.x, way.y, way.z);
-    const double reach = std::hypot(length, std::sqrt(square));
-    const glm::dvec3 towards = length > 0.0 ? way / length : normal;
-    const double mu = glm::dot(normal, towards);
-    const double received = received_share(mu, std::sqrt(square) / reach);
-    const double c = glm::dot(against_axis, towards);
+    const glm::dvec3 offset = position - is_positional * point;
+    const double distance = length(offset);
+    const double sphere_distance = std::hypot(distance, std::sqrt(radius_sq));
+    const glm::dvec3 to_light = distance > 0.0 ? offset / distance : normal;
+    const double mu = glm::dot(normal, to_light);
+    const double received = received_fraction(mu, std::sqrt(radius_sq) / sphere_distance);
+    const double c = glm::dot(reverse_axis, to_light);
     const double t =
-        std::clamp(by_cosine * c + constant + by_sine * std::sqrt(std::max(0.0, 1.0 - c * c)), 0.0, 1.0);
-    const double profile = t * (1.0 + smooth * (t * (3.0 - 2.0 * t) - 1.0)) * (1.0 + cosine * (c - 1.0));
-    return strength * evaluate(angular, mu) * (received * profile / reach / reach);
+        std::clamp(cos_scale * c + bias + sin_scale * std::sqrt(std::max(0.0, 1.0 - c * c)), 0.0, 1.0);
+    const double profile =
+        t * (1.0 + smoothstep * (t * (3.0 - 2.0 * t) - 1.0)) * (1.0 + cosine_falloff * (c - 1.0));
+    return strength * evaluate(angular, mu) * (received * profile / sphere_distance / sphere_distance);
 }
 
-std::vector<SurfaceTerm> surface_terms(const PreparedLight& light, const glm::dvec3& strength,
-                                       const glm::dvec3& middle, int columns, int rows) {
+std::vector<SurfaceTerm> detail::surface_terms(const PreparedLight& light, const glm::dvec3& strength,
+                                               const glm::dvec3& center, int columns, int rows) {
     if (light.dark()) return {};
     if (light.kind() == LightKind::sun) return {sun_term(light, strength)};
     if (light.kind() == LightKind::area) return area_terms(light, strength, columns, rows);
-    return {ball_term(light, strength, middle)};
+    return {ball_term(light, strength, center)};
 }
 
 }  // namespace skinglow

@@ -1,14 +1,13 @@
 #pragma once
 
+#include <skinglow/light.h>
+#include <skinglow/light_weights.h>
 #include <skinglow/lut.h>
 
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
-
-#include "light/light.h"
-#include "light/light_weights.h"
 
 namespace skinglow {
 

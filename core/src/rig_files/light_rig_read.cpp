@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
+#include "light/light_fields.h"
 #include "numerics/argument_check.h"
-#include "rig_files/light_fields.h"
 #include "rig_files/light_rig.h"
 #include "rig_files/located_json.h"
 
@@ -63,42 +63,59 @@ class ObjectReader {
         }
     }
 
-    void read(std::string_view key, double& into, double least, double most) const {
-        if (const json* value = find(key)) into = number(*value, key_name(key), least, most);
+    void read(std::string_view key, double& into, const Limits& limits) const {
+        if (const json* value = find(key)) into = number(*value, key_name(key), limits);
     }
 
-    void read(std::string_view key, glm::dvec3& into, double least, double most) const {
+    void read(std::string_view key, glm::dvec3& into, const Limits& limits) const {
         const json* value = find(key);
         if (value == nullptr) return;
         if (!value->is_array() || value->size() != 3)
             refuse(key, "is " + shown(*value), "give a list of three numbers");
         for (int i = 0; i < 3; ++i) {
-            const auto place = static_cast<std::size_t>(i);
-            into[i] = number((*value)[place], key_name(key) + "[" + std::to_string(i) + "]", least, most);
+            into[i] = number((*value)[static_cast<std::size_t>(i)],
+                             key_name(key) + "[" + std::to_string(i) + "]", limits);
         }
     }
 
-    void read(std::string_view key, bool& into) const {
+    void read(std::string_view key, bool& into, const Limits& /*limits*/) const {
         const json* value = find(key);
         if (value == nullptr) return;
         if (!value->is_boolean()) refuse(key, "is " + shown(*value), "give true or false");
         into = value->get<bool>();
     }
 
-    void read(std::string_view key, std::string& into) const {
+    void read(std::string_view key, std::string& into, const Limits& /*limits*/ = {}) const {
         const json* value = find(key);
         if (value == nullptr) return;
         if (!value->is_string()) refuse(key, "is " + shown(*value), "give a text in quotes");
         into = value->get<std::string>();
     }
 
+    void read(std::string_view key, AreaShape& into, const Limits& /*limits*/) const {
+        if (find(key) != nullptr) into = named(key, area_shape, "give RECTANGLE, SQUARE, ELLIPSE or DISK");
+    }
+
+    /// What a text names, by a function that throws std::invalid_argument on a name it does not know.
+    template <typename Value>
+    Value named(std::string_view key, Value (*value_of)(std::string_view), std::string_view remedy) const {
+        std::string text;
+        read(key, text);
+        try {
+            return value_of(text);
+        } catch (const std::invalid_argument&) {
+            refuse(key, "is \"" + text + "\"", remedy);
+        }
+    }
+
   private:
-    double number(const json& value, const std::string& name, double least, double most) const {
+    double number(const json& value, const std::string& name, const Limits& limits) const {
         std::string allowed = "give a number";
-        if (least == 0.0) allowed += most == any_size ? ", 0 or more" : " of 0 to " + to_text(most);
-        if (!value.is_number()) file_.refuse(name, "is " + shown(value), allowed);
-        const double found = value.get<double>();
-        if (found < least || found > most) file_.refuse(name, "is " + shown(value), allowed);
+        if (limits.min == 0.0)
+            allowed += limits.max == largest_double ? ", 0 or more" : " of 0 to " + to_text(limits.max);
+        const double found = value.is_number() ? value.get<double>() : limits.max;
+        if (!value.is_number() || found < limits.min || found > limits.max)
+            file_.refuse(name, "is " + shown(value), allowed);
         return found;
     }
 
@@ -107,73 +124,34 @@ class ObjectReader {
     std::string name_;
 };
 
-LightKind read_kind(const ObjectReader& reader) {
-    if (reader.find("kind") == nullptr) reader.refuse("kind", "is missing", "give POINT, SUN, SPOT or AREA");
-    std::string text;
-    reader.read("kind", text);
-    try {
-        return light_kind(text);
-    } catch (const std::invalid_argument&) {
-        reader.refuse("kind", "is \"" + text + "\"", "give POINT, SUN, SPOT or AREA");
-    }
-}
-
-std::vector<std::string_view> keys_of(LightKind kind) {
-    std::vector<std::string_view> keys = {"kind", "name", "color_bytes"};
-    const auto add = [&](const auto& fields) {
-        for (const auto& field : fields) {
-            if (field.kinds.include(kind)) keys.push_back(field.key);
-        }
-    };
-    add(vector_fields);
-    add(number_fields);
-    add(switch_fields);
-    if (kind == LightKind::area) keys.emplace_back("area_shape");
+std::vector<std::string_view> keys_of(const LightSettings& light) {
+    std::vector<std::string_view> keys = {"kind", "color_bytes"};
+    for_each_field(light, [&](const auto& field, const auto& /*owner*/) { keys.push_back(field.key); });
     return keys;
 }
 
 /// The paper gives its colors as bytes; they are linear values divided by 255 (docs/rig_format.md).
-void read_color_bytes(const ObjectReader& reader, Light& light) {
+void read_color_bytes(const ObjectReader& reader, glm::dvec3& color) {
     if (reader.find("color_bytes") == nullptr) return;
     if (reader.find("color") != nullptr)
         reader.refuse("color_bytes", "stands beside color", "give one of the two");
-    reader.read("color_bytes", light.color, 0.0, 255.0);
-    light.color /= 255.0;
-}
-
-void read_area_shape(const ObjectReader& reader, Light& light) {
-    if (reader.find("area_shape") == nullptr) return;
-    std::string text;
-    reader.read("area_shape", text);
-    try {
-        light.area_shape = area_shape(text);
-    } catch (const std::invalid_argument&) {
-        reader.refuse("area_shape", "is \"" + text + "\"", "give RECTANGLE, SQUARE, ELLIPSE or DISK");
-    }
+    reader.read("color_bytes", color, {0.0, 255.0});
+    color /= 255.0;
 }
 
 Light read_light(const LocatedJson& file, const json& value, const std::string& name) {
     const ObjectReader reader(file, value, name);
-    Light light;
-    light.kind = read_kind(reader);
-    reader.allow_only(keys_of(light.kind));
-    reader.read("name", light.name);
-    for (const VectorField& field : vector_fields) {
-        reader.read(field.key, light.*field.member, field.may_be_negative ? -any_size : 0.0, any_size);
-    }
-    for (const NumberField& field : number_fields)
-        reader.read(field.key, light.*field.member, field.min, field.max);
-    for (const SwitchField& field : switch_fields) reader.read(field.key, light.*field.member);
-    read_color_bytes(reader, light);
-    read_area_shape(reader, light);
-    if (light.kind != LightKind::point && light.direction == glm::dvec3(0.0)) {
-        reader.refuse("direction", "has length 0", "give where the lamp shines to");
-    }
-    try {
-        validate(light);  // the core has the last word on what a lamp is
-    } catch (const std::invalid_argument& error) {
-        file.refuse(name, error.what(), "correct it");
-    }
+    constexpr const char* kinds = "give POINT, SUN, SPOT or AREA";
+    if (reader.find("kind") == nullptr) reader.refuse("kind", "is missing", kinds);
+    LightSettings light;
+    light.shape = default_shape(reader.named("kind", light_kind, kinds));
+    reader.allow_only(keys_of(light));
+    for_each_field(light, [&](const auto& field, auto& owner) {
+        reader.read(field.key, owner.*field.member, limits(field.range));
+    });
+    read_color_bytes(reader, light.color);
+    if (!std::holds_alternative<PointLight>(light.shape) && light.direction == glm::dvec3(0.0))
+        reader.refuse("direction", "has length 0", "give where the light shines to");
     return light;
 }
 
@@ -188,6 +166,12 @@ void check_version(const ObjectReader& reader) {
 
 }  // namespace
 
+void validate(const LightRig& rig) {
+    require_finite("point", rig.point);
+    require_not_negative("blood_weight", rig.blood_weight);
+    validate(rig.coefficients);
+}
+
 LightRig read_light_rig(const std::filesystem::path& path) {
     const LocatedJson file(path);
     const ObjectReader reader(file, file.value(), "");
@@ -196,16 +180,18 @@ LightRig read_light_rig(const std::filesystem::path& path) {
         {"skinglow_rig", "name", "description", "point", "attenuation", "blood_weight", "lights"});
     LightRig rig;
     std::string description;  // for people; checked, not kept
+    const Limits any = limits(FieldRange::any);
+    const Limits not_negative = limits(FieldRange::not_negative);
     reader.read("name", rig.name);
     reader.read("description", description);
-    reader.read("point", rig.point, -any_size, any_size);
-    reader.read("blood_weight", rig.blood_weight, 0.0, any_size);
+    reader.read("point", rig.point, any);
+    reader.read("blood_weight", rig.blood_weight, not_negative);
     if (const json* value = reader.find("attenuation")) {
         const ObjectReader attenuation(file, *value, "attenuation");
         attenuation.allow_only({"constant", "linear", "quadratic"});
-        attenuation.read("constant", rig.coefficients.constant, 0.0, any_size);
-        attenuation.read("linear", rig.coefficients.linear, 0.0, any_size);
-        attenuation.read("quadratic", rig.coefficients.quadratic, 0.0, any_size);
+        attenuation.read("constant", rig.coefficients.constant, not_negative);
+        attenuation.read("linear", rig.coefficients.linear, not_negative);
+        attenuation.read("quadratic", rig.coefficients.quadratic, not_negative);
     }
     const json* lights = reader.find("lights");
     if (lights == nullptr) reader.refuse("lights", "is missing", "give a list of lights; [] for none");

@@ -17,7 +17,7 @@ namespace skinglow {
 namespace {
 
 constexpr std::size_t max_bytes = std::size_t{1} << 20U;  // a real one has 2 kB
-constexpr int lamp_count = 4;
+constexpr int light_count = 4;
 constexpr const char* remedy = "give a studio light (*.sl) as Blender writes it";
 
 /// The numbers of the file by key.
@@ -104,10 +104,10 @@ StudioLight read_studio_light(const std::filesystem::path& path, const glm::dmat
     const StudioLightText text(path);
     StudioLight studio;
     if (text.color("light_ambient") != glm::dvec3(0.0)) {
-        studio.notes.emplace_back("its ambient light was left out: it comes from no lamp");
+        studio.notes.emplace_back("its ambient light was left out: it comes from no light");
     }
     bool soft = false;
-    for (int i = 0; i < lamp_count; ++i) {
+    for (int i = 0; i < light_count; ++i) {
         const std::string name = "light[" + std::to_string(i) + "]";
         const glm::dvec3 color = text.color(name + ".col");
         const glm::dvec3 towards = text.vector(name + ".vec");
@@ -115,18 +115,17 @@ StudioLight read_studio_light(const std::filesystem::path& path, const glm::dmat
         const double smooth = text.number(name + ".smooth");
         if (flag == 0.0) continue;
         if (towards == glm::dvec3(0.0))
-            refuse_file(path, "has length 0 and the lamp is on", remedy, "key " + name + ".vec");
+            refuse_file(path, "has length 0 and the light is on", remedy, "key " + name + ".vec");
         soft = soft || smooth != 0.0;
-        Light light;
-        light.kind = LightKind::sun;
-        light.name = name;
-        light.color = color;
-        light.direction = -(camera * towards);
-        light.power = studio_light_power;
-        studio.lights.push_back(light);
+        studio.lights.emplace_back(LightSettings{.shape = SunLight{},
+                                                 .color = color,
+                                                 .direction = -(camera * towards),
+                                                 .power = studio_light_power,
+                                                 .name = name});
     }
     if (soft)
-        studio.notes.emplace_back("its lamps' smooth (light that wraps around) was left out: suns have none");
+        studio.notes.emplace_back(
+            "its lights' smooth (light that wraps around) was left out: suns have none");
     return studio;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <skinglow/light.h>
+
 #include <filesystem>
 #include <glm/mat3x3.hpp>
 #include <numbers>
 #include <string>
 #include <vector>
-
-#include "light/light.h"
 
 namespace skinglow {
 

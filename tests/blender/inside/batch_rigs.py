@@ -48,7 +48,7 @@ def check_rig_file_is_placed_and_removed(work):
     sb.render_batch(work / "kinds", 1, [str(DATA / "all_kinds.json")], onto=obj)
     (entry,) = manifest_of(work / "kinds")
     lights = [as_this_blender_has_it(light) for light in rig.lights if light.visible]
-    each = {light.name: sg.irradiance([light], rig.point) for light in lights}
+    each = {light.name: sg.object_irradiance([light], rig.point) for light in lights}
     assert all(np.all(weight > 0.0) for weight in each.values()), "all four kinds reach the point"
     for row in entry["skins"][0]["lamps"]:
         if row["name"] in each:

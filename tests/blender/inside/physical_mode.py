@@ -12,7 +12,7 @@ THIN = [0.0, 1.0, 2.0, 3.0]
 
 
 def physical_table(tissue, lights, point=(0.0, 0.0, 0.0)):
-    return sg.recolor(sg.base_lut(tissue, 256, 12.0), sg.irradiance(lights, point) / np.pi).astype(np.float32)
+    return sg.recolor(sg.base_lut(tissue, 256, 12.0), sg.object_irradiance(lights, point) / np.pi).astype(np.float32)
 
 
 def check_radiance_of_a_point_light(_work):

@@ -130,7 +130,7 @@ def fresh_physical_table(obj, graph, base):
     corners = np.array(evaluated.bound_box, dtype=float)[[0, 6]]
     point = matrix[:3, :3] @ corners.mean(axis=0) + matrix[:3, 3]
     lights = [physical_light(other.data, place) for other, place in visible_lights(graph)]
-    return sg.recolor(base, sg.irradiance(lights, point) / np.pi).astype(np.float32)
+    return sg.recolor(base, sg.object_irradiance(lights, point) / np.pi).astype(np.float32)
 
 
 def physical_light(light, matrix):

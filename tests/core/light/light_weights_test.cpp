@@ -1,6 +1,5 @@
-#include "light/light_weights.h"
-
 #include <gtest/gtest.h>
+#include <skinglow/light_weights.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,99 +75,99 @@ TEST(LightWeights, MatchTable1ByHand) {
 }
 
 TEST(LightWeights, MeasureFromThePoint) {
-    auto lights = table1::lights();
+    auto lights = table1::flat_lights();
     const glm::dvec3 away(3.0, -70.0, 0.25);
-    for (Light& light : lights) light.position += away;
-    expect_near_relative(light_weight(lights, away), table1::total, 1e-13);
+    for (FlatLight& light : lights) light.position += away;
+    expect_near_relative(light_weight(made(lights), away), table1::total, 1e-13);
 }
 
 TEST(LightWeights, LeaveOutLampsThatAreOff) {
-    auto lights = table1::lights();
+    auto lights = table1::flat_lights();
     lights[0].visible = false;
     lights[1].power = 0.0;
     lights[2].color = glm::dvec3(0.0);
-    EXPECT_EQ(light_weight(lights, glm::dvec3(0.0)), glm::dvec3(0.0));
-    for (const glm::dvec3& weight : light_weights(lights, glm::dvec3(0.0)))
+    EXPECT_EQ(light_weight(made(lights), glm::dvec3(0.0)), glm::dvec3(0.0));
+    for (const glm::dvec3& weight : light_weights(made(lights), glm::dvec3(0.0)))
         EXPECT_EQ(weight, glm::dvec3(0.0));
     lights[0].visible = true;
-    expect_near_relative(light_weight(lights, glm::dvec3(0.0)), table1::weight[0], 1e-15);
+    expect_near_relative(light_weight(made(lights), glm::dvec3(0.0)), table1::weight[0], 1e-15);
 }
 
 TEST(LightWeights, GiveASunNoAttenuation) {
-    Light sun;
+    FlatLight sun;
     sun.kind = LightKind::sun;
     sun.color = {0.25, 0.5, 4.0};
     sun.position = glm::dvec3(1e30);
-    EXPECT_EQ(light_weight({&sun, 1}, glm::dvec3(0.0)), sun.color);
+    EXPECT_EQ(light_weight(made({sun}), glm::dvec3(0.0)), sun.color);
 }
 
 TEST(LightWeights, DoNotAskForPowerOrDirection) {
-    auto lights = table1::lights();
-    for (Light& light : lights) {
+    auto lights = table1::flat_lights();
+    for (FlatLight& light : lights) {
         light.power = 1e9;
         light.kind = LightKind::spot;
         light.direction = light.position;  // shines away from the point
     }
-    expect_near_relative(light_weight(lights, glm::dvec3(0.0)), table1::total, 1e-14);
+    expect_near_relative(light_weight(made(lights), glm::dvec3(0.0)), table1::total, 1e-14);
 }
 
 TEST(LightWeights, HoldAtExtremes) {
     EXPECT_EQ(light_weight({}, glm::dvec3(0.0)), glm::dvec3(0.0)) << "no lights: L = 0";
-    Light light;
+    FlatLight light;
     light.color = {0.0, 1e6, 1.0};
-    EXPECT_EQ(light_weight({&light, 1}, glm::dvec3(0.0)), light.color) << "a lamp at the point itself";
+    EXPECT_EQ(light_weight(made({light}), glm::dvec3(0.0)), light.color) << "a lamp at the point itself";
     light.position = {1e-30, 0.0, 0.0};
-    EXPECT_EQ(light_weight({&light, 1}, glm::dvec3(0.0)), light.color);
+    EXPECT_EQ(light_weight(made({light}), glm::dvec3(0.0)), light.color);
     light.position = {0.0, 1e30, 0.0};
-    EXPECT_DOUBLE_EQ(light_weight({&light, 1}, glm::dvec3(0.0)).y, 1e-54);
+    EXPECT_DOUBLE_EQ(light_weight(made({light}), glm::dvec3(0.0)).y, 1e-54);
     light.position = {1e300, 1e300, 1e300};
-    EXPECT_EQ(light_weight({&light, 1}, glm::dvec3(0.0)), glm::dvec3(0.0)) << "not NaN";
+    EXPECT_EQ(light_weight(made({light}), glm::dvec3(0.0)), glm::dvec3(0.0)) << "not NaN";
 }
 
 TEST(LightWeights, SumTenThousandInAnyOrder) {
     std::mt19937_64 random(20261123);
     std::uniform_real_distribution<double> exponent(-6.0, 6.0);
-    std::vector<Light> lights(10000);
-    for (Light& light : lights) {
+    std::vector<FlatLight> lights(10000);
+    for (FlatLight& light : lights) {
         light.color = glm::dvec3(std::pow(10.0, exponent(random)));  // over twelve decades
         light.position = {exponent(random), exponent(random), exponent(random)};
     }
-    const glm::dvec3 first = light_weight(lights, glm::dvec3(0.0));
+    const glm::dvec3 first = light_weight(made(lights), glm::dvec3(0.0));
     long double exact = 0.0L;
-    for (const glm::dvec3& weight : light_weights(lights, glm::dvec3(0.0)))
+    for (const glm::dvec3& weight : light_weights(made(lights), glm::dvec3(0.0)))
         exact += static_cast<long double>(weight.x);
     EXPECT_NEAR(first.x, static_cast<double>(exact), 4e-16 * first.x);
     for (int turn = 0; turn < 20; ++turn) {
         std::shuffle(lights.begin(), lights.end(), random);
-        const glm::dvec3 again = light_weight(lights, glm::dvec3(0.0));
+        const glm::dvec3 again = light_weight(made(lights), glm::dvec3(0.0));
         EXPECT_NEAR(again.x, first.x, 4e-16 * first.x) << "two last bits";
     }
 }
 
 TEST(LightWeights, NameTheLampTheyRefuse) {
-    auto lights = table1::lights();
+    auto lights = table1::flat_lights();
     lights[1].color.y = -0.5;
     try {
-        light_weight(lights, glm::dvec3(0.0));
+        light_weight(made(lights), glm::dvec3(0.0));
         FAIL() << "accepted a negative color";
     } catch (const std::invalid_argument& error) {
         EXPECT_NE(std::string(error.what()).find("light \"Light2\" color"), std::string::npos)
             << error.what();
     }
-    lights = table1::lights();
+    lights = table1::flat_lights();
     lights[2].position.z = nan;
-    EXPECT_THROW(light_weights(lights, glm::dvec3(0.0)), std::invalid_argument);
-    lights = table1::lights();
+    EXPECT_THROW(light_weights(made(lights), glm::dvec3(0.0)), std::invalid_argument);
+    lights = table1::flat_lights();
     lights[0].color.x = inf;
-    EXPECT_THROW(light_weights(lights, glm::dvec3(0.0)), std::invalid_argument);
+    EXPECT_THROW(light_weights(made(lights), glm::dvec3(0.0)), std::invalid_argument);
     EXPECT_THROW(light_weights({}, glm::dvec3(0.0, nan, 0.0)), std::invalid_argument);
-    Light far;
+    FlatLight far;
     far.position = glm::dvec3(1.7e308);
-    EXPECT_THROW(light_weight({&far, 1}, glm::dvec3(-1.7e308)), std::invalid_argument)
+    EXPECT_THROW(light_weight(made({far}), glm::dvec3(-1.7e308)), std::invalid_argument)
         << "the distance overflows";
-    std::vector<Light> bright(2);
-    for (Light& light : bright) light.color = glm::dvec3(1.7e308);
-    EXPECT_THROW(light_weight(bright, glm::dvec3(0.0)), std::invalid_argument) << "the sum overflows";
+    std::vector<FlatLight> bright(2);
+    for (FlatLight& light : bright) light.color = glm::dvec3(1.7e308);
+    EXPECT_THROW(light_weight(made(bright), glm::dvec3(0.0)), std::invalid_argument) << "the sum overflows";
 }
 
 TEST(LightKindNames, AreBlenders) {

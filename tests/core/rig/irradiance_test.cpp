@@ -1,6 +1,6 @@
-#include "rig/irradiance.h"
-
 #include <gtest/gtest.h>
+#include <skinglow/light.h>
+#include <skinglow/rig.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "light/light_units.h"
 #include "random_lights.h"
-#include "rig/surface_irradiance.h"
 
 using namespace skinglow;
 
@@ -19,8 +17,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Light lamp(LightKind kind, double power) {
-    Light light;
+FlatLight lamp(LightKind kind, double power) {
+    FlatLight light;
     light.kind = kind;
     light.power = power;
     light.position = {0, 0, 2};
@@ -31,9 +29,9 @@ bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-std::string message_of(const Light& light) {
+std::string message_of(const FlatLight& light) {
     try {
-        irradiance(light, glm::dvec3(0.0), {0, 0, 1});
+        irradiance_at({light}, glm::dvec3(0.0), {0, 0, 1});
     } catch (const std::invalid_argument& error) {
         return error.what();
     }
@@ -45,67 +43,68 @@ std::string message_of(const Light& light) {
 TEST(Irradiance, PointSpotAndSunAreTheirFormulae) {
     const glm::dvec3 normal = glm::normalize(glm::dvec3(0, 1, 1));
     const double point = 100 / (4 * pi * 4);
-    EXPECT_NEAR(irradiance(lamp(LightKind::point, 100), glm::dvec3(0.0), {0, 0, 3}).r, point, 1e-13);
-    EXPECT_NEAR(irradiance(lamp(LightKind::point, 100), glm::dvec3(0.0), normal).r, point * std::sqrt(0.5),
+    EXPECT_NEAR(irradiance_at({lamp(LightKind::point, 100)}, glm::dvec3(0.0), {0, 0, 3}).r, point, 1e-13);
+    EXPECT_NEAR(irradiance_at({lamp(LightKind::point, 100)}, glm::dvec3(0.0), normal).r,
+                point * std::sqrt(0.5), 1e-13);
+    EXPECT_EQ(irradiance_at({lamp(LightKind::point, 100)}, glm::dvec3(0.0), {0, 0, -1}).r, 0.0);
+    EXPECT_NEAR(irradiance_at({lamp(LightKind::sun, 5)}, glm::dvec3(0.0), normal).r, 5 * std::sqrt(0.5),
                 1e-13);
-    EXPECT_EQ(irradiance(lamp(LightKind::point, 100), glm::dvec3(0.0), {0, 0, -1}).r, 0.0);
-    EXPECT_NEAR(irradiance(lamp(LightKind::sun, 5), glm::dvec3(0.0), normal).r, 5 * std::sqrt(0.5), 1e-13);
 
-    Light spot = lamp(LightKind::spot, 100);
+    FlatLight spot = lamp(LightKind::spot, 100);
     spot.spot_angle = 1.0;
     spot.spot_blend = 0.5;
-    EXPECT_NEAR(irradiance(spot, glm::dvec3(0.0), {0, 0, 1}).r, point, 1e-13);
+    EXPECT_NEAR(irradiance_at({spot}, glm::dvec3(0.0), {0, 0, 1}).r, point, 1e-13);
     const double aside = 2 * std::tan(0.45);
     const double cosine = std::cos(0.45);
     const double t = (cosine - std::cos(0.5)) / (0.5 * (1 - std::cos(0.5)));
-    EXPECT_NEAR(irradiance(spot, {aside, 0, 0}, {0, 0, 1}).r,
+    EXPECT_NEAR(irradiance_at({spot}, {aside, 0, 0}, {0, 0, 1}).r,
                 point * std::pow(cosine, 3) * t * t * (3 - 2 * t), 1e-13);
-    EXPECT_EQ(irradiance(spot, {2 * std::tan(0.51), 0, 0}, {0, 0, 1}).r, 0.0);
+    EXPECT_EQ(irradiance_at({spot}, {2 * std::tan(0.51), 0, 0}, {0, 0, 1}).r, 0.0);
     spot.spot_cosine = true;
-    EXPECT_NEAR(irradiance(spot, {aside, 0, 0}, {0, 0, 1}).r,
+    EXPECT_NEAR(irradiance_at({spot}, {aside, 0, 0}, {0, 0, 1}).r,
                 point * std::pow(cosine, 4) * t * t * (3 - 2 * t), 1e-13);
 }
 
 TEST(Irradiance, SoftLampsAreWhatCyclesRenders) {
-    Light light = lamp(LightKind::point, 100);
+    FlatLight light = lamp(LightKind::point, 100);
     light.radius = 0.5;
     // docs: measured with Cycles 3.4 to 5.2 on a white Lambert plane.
-    EXPECT_NEAR(irradiance(light, glm::dvec3(0.0), {0, 0, 1}).r, 1.8724, 5e-5);
+    EXPECT_NEAR(irradiance_at({light}, glm::dvec3(0.0), {0, 0, 1}).r, 1.8724, 5e-5);
     light.soft_falloff = false;
-    EXPECT_NEAR(irradiance(light, glm::dvec3(0.0), {0, 0, 1}).r, 100 / (4 * pi * 4), 1e-13);
+    EXPECT_NEAR(irradiance_at({light}, glm::dvec3(0.0), {0, 0, 1}).r, 100 / (4 * pi * 4), 1e-13);
     // Within a ball light comes from everywhere with the ball's radiance.
-    EXPECT_NEAR(irradiance(light, {0.1, 0, 2.2}, {1, 0, 0}).r, 100 / (4 * pi * 0.25), 1e-10);
+    EXPECT_NEAR(irradiance_at({light}, {0.1, 0, 2.2}, {1, 0, 0}).r, 100 / (4 * pi * 0.25), 1e-10);
 }
 
 TEST(Irradiance, FarAreaLampsOfEveryShapeAreAlike) {
     for (const AreaShape shape : {AreaShape::rectangle, AreaShape::ellipse}) {
-        Light light = lamp(LightKind::area, 100);
+        FlatLight light = lamp(LightKind::area, 100);
         light.area_shape = shape;
         for (const double size : {0.0, 1e-30, 1e-9, 1e-5, 1e-3, 0.01}) {
             light.size_x = size;
             light.size_y = 0.5 * size;
-            EXPECT_NEAR(irradiance(light, glm::dvec3(0.0), {0, 0, 1}).r, 100 / (pi * 4), 1e-4) << size;
-            EXPECT_NEAR(irradiance(light, {2, 0, 0}, {0, 0, 1}).r, 100 / (pi * 8) * 0.5, 1e-4) << size;
+            EXPECT_NEAR(irradiance_at({light}, glm::dvec3(0.0), {0, 0, 1}).r, 100 / (pi * 4), 1e-4) << size;
+            EXPECT_NEAR(irradiance_at({light}, {2, 0, 0}, {0, 0, 1}).r, 100 / (pi * 8) * 0.5, 1e-4) << size;
         }
-        EXPECT_EQ(irradiance(light, {0, 0, 2.5}, {0, 0, -1}).r, 0.0);
+        EXPECT_EQ(irradiance_at({light}, {0, 0, 2.5}, {0, 0, -1}).r, 0.0);
     }
-    Light line = lamp(LightKind::area, 100);
+    FlatLight line = lamp(LightKind::area, 100);
     line.size_x = 1.0;
     // A Lambert line along x: integral of h^2 / (x^2 + h^2)^2 dx / (pi length).
     const double expected = 100 / pi * (0.5 / (4 + 0.25) + std::atan(0.25) / 2);
-    EXPECT_NEAR(irradiance(line, glm::dvec3(0.0), {0, 0, 1}).r, expected, 1e-6 * expected);
+    EXPECT_NEAR(irradiance_at({line}, glm::dvec3(0.0), {0, 0, 1}).r, expected, 1e-6 * expected);
 }
 
 TEST(Irradiance, ObjectWeightIsTheSumOfFacingSurfacesInAnyOrder) {
     RandomScene random(5);
     std::vector<Light> lights = random.lights(40);
     const glm::dvec3 point(0.3, -0.1, 0.2);
-    const std::vector<glm::dvec3> parts = object_irradiances(lights, point);
+    const std::vector<glm::dvec3> parts = object_irradiance_by_light(lights, point);
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const glm::dvec3 towards =
-            lights[i].kind == LightKind::sun ? -lights[i].direction : lights[i].position - point;
-        const glm::dvec3 expected = irradiance(lights[i], point, towards);
+            lights[i].kind() == LightKind::sun ? -lights[i].direction() : lights[i].position() - point;
+        const glm::dvec3 expected = irradiance_at({lights[i]}, point, towards);
         EXPECT_NEAR(parts[i].g, expected.g, 1e-12 * std::abs(expected.g)) << i;
         sum += parts[i];
     }
@@ -123,7 +122,7 @@ TEST(Irradiance, ExtremesAreFinite) {
     RandomScene random(6);
     for (const LightKind kind : {LightKind::point, LightKind::spot, LightKind::sun, LightKind::area}) {
         for (int i = 0; i < 400; ++i) {
-            Light light = random.light();
+            FlatLight light = random.light();
             light.kind = kind;
             light.power = random.decades(1e-20, 1e20);
             if (random.one_in(4)) light.spot_angle = random.one_in(2) ? 0.0 : pi;
@@ -136,9 +135,9 @@ TEST(Irradiance, ExtremesAreFinite) {
             if (random.one_in(4)) point = light.position;
             if (random.one_in(4)) point = light.position + random.unit_vector() * random.decades(1e-20, 1e-5);
             const glm::dvec3 normal = random.unit_vector();
-            const glm::dvec3 one = irradiance(light, point, normal);
-            const glm::dvec3 facing = object_irradiance({&light, 1}, point);
-            const glm::dvec3 surface = surface_irradiance({&light, 1}, {&point, 1}, {&normal, 1})[0];
+            const glm::dvec3 one = irradiance_at({light}, point, normal);
+            const glm::dvec3 facing = object_irradiance({light}, point);
+            const glm::dvec3 surface = surface_irradiance({light}, {&point, 1}, {&normal, 1})[0];
             EXPECT_TRUE(finite(one) && finite(facing) && finite(surface)) << i;
             EXPECT_GE(one.r, 0.0) << i;
             EXPECT_NEAR(surface.r, one.r, 1e-7 * (std::abs(one.r) + std::abs(facing.r))) << i;
@@ -147,19 +146,19 @@ TEST(Irradiance, ExtremesAreFinite) {
 }
 
 TEST(Irradiance, ALampAtThePointIsHeldAtTheLeastDistance) {
-    const Light light = lamp(LightKind::point, 1);
-    EXPECT_NEAR(irradiance(light, light.position, {1, 0, 0}).r / (1 / (4 * pi * 1e-12)), 1.0, 1e-12);
-    Light panel = lamp(LightKind::area, 1);
+    const FlatLight light = lamp(LightKind::point, 1);
+    EXPECT_NEAR(irradiance_at({light}, light.position, {1, 0, 0}).r / (1 / (4 * pi * 1e-12)), 1.0, 1e-12);
+    FlatLight panel = lamp(LightKind::area, 1);
     panel.size_x = panel.size_y = 2;
-    EXPECT_NEAR(irradiance(panel, panel.position, {0, 0, 1}).r, 0.25,
+    EXPECT_NEAR(irradiance_at({panel}, panel.position, {0, 0, 1}).r, 0.25,
                 1e-5);  // radiance 1 / (4 pi), all of the half sky
 }
 
 TEST(Irradiance, LampsThatAreOffAndNegativePower) {
-    Light light = lamp(LightKind::point, -100);
-    EXPECT_NEAR(irradiance(light, glm::dvec3(0.0), {0, 0, 1}).r, -100 / (16 * pi), 1e-13);
+    FlatLight light = lamp(LightKind::point, -100);
+    EXPECT_NEAR(irradiance_at({light}, glm::dvec3(0.0), {0, 0, 1}).r, -100 / (16 * pi), 1e-13);
     light.visible = false;
-    EXPECT_EQ(object_irradiance({&light, 1}, glm::dvec3(0.0)), glm::dvec3(0.0));
+    EXPECT_EQ(object_irradiance({light}, glm::dvec3(0.0)), glm::dvec3(0.0));
 }
 
 TEST(Irradiance, TenThousandLampsAtOnePoint) {
@@ -168,7 +167,7 @@ TEST(Irradiance, TenThousandLampsAtOnePoint) {
 }
 
 TEST(Irradiance, BadInputIsNamed) {
-    Light light = lamp(LightKind::spot, 1);
+    FlatLight light = lamp(LightKind::spot, 1);
     light.name = "Rim";
     light.spot_blend = 1.5;
     EXPECT_EQ(message_of(light), "light \"Rim\" spot_blend is 1.5; allowed: a number of 0 to 1");
@@ -181,7 +180,7 @@ TEST(Irradiance, BadInputIsNamed) {
     light = lamp(LightKind::point, 1e308);
     light.position = glm::dvec3(0.0);
     EXPECT_NE(message_of(light).find("irradiance of light"), std::string::npos);
-    EXPECT_THROW(irradiance(lamp(LightKind::sun, 1), glm::dvec3(0.0), glm::dvec3(0.0)),
+    EXPECT_THROW(irradiance_at({lamp(LightKind::sun, 1)}, glm::dvec3(0.0), glm::dvec3(0.0)),
                  std::invalid_argument);
     EXPECT_THROW(object_irradiance({}, glm::dvec3(std::nan(""))), std::invalid_argument);
     EXPECT_THROW(object_irradiance({}, glm::dvec3(0.0), 0.0), std::invalid_argument);
@@ -199,7 +198,7 @@ TEST(LightUnits, AreBlenders) {
     EXPECT_NEAR(warm.g, 0.8443, 2e-4);
     EXPECT_NEAR(warm.b, 0.2722, 2e-4);
     EXPECT_THROW(black_body_color(100), std::invalid_argument);
-    Light light = lamp(LightKind::area, 1);
+    FlatLight light = lamp(LightKind::area, 1);
     light.size_x = 2;
     light.size_y = 3;
     EXPECT_EQ(unnormalized_power_factor(light), 6.0);

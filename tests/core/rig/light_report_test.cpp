@@ -1,10 +1,11 @@
-#include "rig/light_report.h"
-
 #include <gtest/gtest.h>
+#include <skinglow/rig.h>
 
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+
+#include "flat_light.h"
 
 using namespace skinglow;
 
@@ -12,8 +13,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Light lamp(LightKind kind, const glm::dvec3& position, const glm::dvec3& direction = {0, 0, -1}) {
-    Light light;
+FlatLight lamp(LightKind kind, const glm::dvec3& position, const glm::dvec3& direction = {0, 0, -1}) {
+    FlatLight light;
     light.kind = kind;
     light.position = position;
     light.direction = direction;
@@ -24,11 +25,12 @@ Light lamp(LightKind kind, const glm::dvec3& position, const glm::dvec3& directi
 }  // namespace
 
 TEST(LightReport, TellsDistanceAnglesWeightAndShare) {
-    std::vector<Light> lights = {lamp(LightKind::point, {0, 0, 2}),
-                                 lamp(LightKind::spot, {1, 0, 1}, {-1, 0, -1}),
-                                 lamp(LightKind::point, {0, 0, -2})};
+    std::vector<FlatLight> lights = {lamp(LightKind::point, {0, 0, 2}),
+                                     lamp(LightKind::spot, {1, 0, 1}, {-1, 0, -1}),
+                                     lamp(LightKind::point, {0, 0, -2})};
     lights[0].name = "Key";
-    const std::vector<LightReportEntry> report = light_report(lights, glm::dvec3(0.0), glm::dvec3(0, 0, 1));
+    const std::vector<LightReportEntry> report =
+        light_report(made(lights), glm::dvec3(0.0), glm::dvec3(0, 0, 1));
     EXPECT_EQ(report[0].name, "Key");
     EXPECT_EQ(report[0].distance, 2.0);
     EXPECT_NEAR(*report[0].normal_angle, 0.0, 1e-12);
@@ -42,7 +44,7 @@ TEST(LightReport, TellsDistanceAnglesWeightAndShare) {
 }
 
 TEST(LightReport, NamesEveryReason) {
-    std::vector<Light> lights(11, lamp(LightKind::point, {0, 0, 2}));
+    std::vector<FlatLight> lights(11, lamp(LightKind::point, {0, 0, 2}));
     lights[1].visible = false;
     lights[2].power = 0;
     lights[3].color = glm::dvec3(0.0);
@@ -57,9 +59,9 @@ TEST(LightReport, NamesEveryReason) {
     occluded[8] = true;
     const std::vector<std::size_t> kept = {0, 1, 2, 3, 4, 5, 6, 7, 8, 10};
     const std::vector<LightReportEntry> report =
-        light_report(lights, glm::dvec3(0.0), std::nullopt, occluded, kept);
-    const std::vector<std::string> expected = {"shines",       "hidden",   "zero power",  "black",
-                                               "outside cone", "no width", "behind lamp", "outside cone",
+        light_report(made(lights), glm::dvec3(0.0), std::nullopt, occluded, kept);
+    const std::vector<std::string> expected = {"shines",       "hidden",   "zero power",   "black",
+                                               "outside cone", "no width", "behind light", "outside cone",
                                                "occluded",     "culled",   "too weak"};
     for (std::size_t i = 0; i < expected.size(); ++i) {
         EXPECT_EQ(to_text(report[i].state), expected[i]) << i;
@@ -69,10 +71,10 @@ TEST(LightReport, NamesEveryReason) {
 }
 
 TEST(LightReport, RefusesWhatDoesNotFit) {
-    const std::vector<Light> lights(2, lamp(LightKind::point, {0, 0, 2}));
+    const std::vector<FlatLight> lights(2, lamp(LightKind::point, {0, 0, 2}));
     EXPECT_TRUE(light_report({}, glm::dvec3(0.0)).empty());
-    EXPECT_THROW(light_report(lights, glm::dvec3(0.0), glm::dvec3(0.0)), std::invalid_argument);
-    EXPECT_THROW(light_report(lights, glm::dvec3(0.0), std::nullopt, {true}), std::invalid_argument);
-    EXPECT_THROW(light_report(lights, glm::dvec3(0.0), std::nullopt, {}, std::vector<std::size_t>{2}),
+    EXPECT_THROW(light_report(made(lights), glm::dvec3(0.0), glm::dvec3(0.0)), std::invalid_argument);
+    EXPECT_THROW(light_report(made(lights), glm::dvec3(0.0), std::nullopt, {true}), std::invalid_argument);
+    EXPECT_THROW(light_report(made(lights), glm::dvec3(0.0), std::nullopt, {}, std::vector<std::size_t>{2}),
                  std::invalid_argument);
 }

@@ -1,6 +1,7 @@
-#include "rig/surface_irradiance.h"
-
 #include <gtest/gtest.h>
+#include <skinglow/angular_weight.h>
+#include <skinglow/environment.h>
+#include <skinglow/rig.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -35,12 +36,11 @@ TEST(SurfaceIrradiance, IsTheSumOfIrradianceForEveryKindAndPlace) {
     RandomScene random(7);
     for (int trial = 0; trial < 60; ++trial) {
         const Surface surface = random_surface(random, 300);
-        const Light light = random.light();
-        const std::vector<glm::dvec3> all = surface_irradiance({&light, 1}, surface.points, surface.normals);
+        const FlatLight light = random.light();
+        const std::vector<glm::dvec3> all = surface_irradiance({light}, surface.points, surface.normals);
         for (std::size_t i = 0; i < all.size(); ++i) {
-            const glm::dvec3 one = irradiance(light, surface.points[i], surface.normals[i]);
-            const double scale =
-                std::abs(object_irradiance({&light, 1}, surface.points[i]).g) + std::abs(one.g);
+            const glm::dvec3 one = irradiance_at({light}, surface.points[i], surface.normals[i]);
+            const double scale = std::abs(object_irradiance({light}, surface.points[i]).g) + std::abs(one.g);
             EXPECT_NEAR(all[i].g, one.g, 1e-8 * scale + 1e-13)
                 << to_text(light.kind) << " " << trial << " " << i;
         }
@@ -58,28 +58,28 @@ TEST(SurfaceIrradiance, AddsLampsAndEnvironmentOnAnyNumberOfThreads) {
     options.threads = 4;
     EXPECT_EQ(surface_irradiance(lights, surface.points, surface.normals, options), alone);
     glm::dvec3 expected(pi * 0.1, pi * 0.2, pi * 0.3);
-    for (const Light& light : lights) expected += irradiance(light, surface.points[17], surface.normals[17]);
+    expected += irradiance_at(lights, surface.points[17], surface.normals[17]);
     EXPECT_NEAR(alone[17].b, expected.b, 1e-9 * std::abs(expected.b) + 1e-9);
 }
 
 TEST(SurfaceIrradiance, FarSideIsBehindTheVertexAndFacesAway) {
-    Light light;
+    FlatLight light;
     light.power = 4 * pi;
     light.position = {0, 0, -3};
     const std::vector<glm::dvec3> vertices = {{0, 0, 1}, {0, 0, 1}};
     const std::vector<glm::dvec3> normals = {{0, 0, 5}, {0, 0, -5}};
     const std::vector<double> depth = {2.0, 2.0};
-    const std::vector<glm::dvec3> values = far_side_irradiance({&light, 1}, vertices, normals, depth);
+    const std::vector<glm::dvec3> values = far_side_irradiance({light}, vertices, normals, depth);
     EXPECT_NEAR(values[0].r, 1.0 / 4, 1e-14);  // from z = -1, looking down
     EXPECT_EQ(values[1].r, 0.0);               // from z = 3, looking up
-    EXPECT_EQ(far_side_irradiance({&light, 1}, vertices, normals, std::vector<double>{2.0}), values);
+    EXPECT_EQ(far_side_irradiance({light}, vertices, normals, std::vector<double>{2.0}), values);
 }
 
 TEST(SurfaceIrradiance, NothingInNothingOutAndBadInputIsNamed) {
     EXPECT_TRUE(surface_irradiance({}, {}, {}).empty());
     const std::vector<glm::dvec3> one = {glm::dvec3(0.0)};
-    const Light light;
-    EXPECT_EQ(surface_irradiance({&light, 1}, one, one)[0], glm::dvec3(0.0));  // a normal of 0 faces nowhere
+    const FlatLight light;
+    EXPECT_EQ(surface_irradiance({light}, one, one)[0], glm::dvec3(0.0));  // a normal of 0 faces nowhere
     EXPECT_THROW(surface_irradiance({}, one, {}), std::invalid_argument);
     EXPECT_THROW(far_side_irradiance({}, one, one, std::vector<double>{-1.0}), std::invalid_argument);
     try {
@@ -102,7 +102,7 @@ TEST(AngularWeight, LightOfAWideLampCountsByTheAnglesOfItsParts) {
     }
     const SurfaceOptions options{.angular_weight = &weight};
     for (const double height : {0.4, 1.5, 12.0}) {
-        Light whole;
+        FlatLight whole;
         whole.kind = LightKind::area;
         whole.position = {0, 0, height};
         whole.direction = {0, 0, -1};
@@ -110,17 +110,17 @@ TEST(AngularWeight, LightOfAWideLampCountsByTheAnglesOfItsParts) {
         whole.size_x = 0.8;
         whole.size_y = 0.6;
         constexpr int across = 30;
-        std::vector<Light> parts(across * across, whole);
+        std::vector<FlatLight> parts(across * across, whole);
         for (int i = 0; i < across * across; ++i) {
-            Light& part = parts[static_cast<std::size_t>(i)];
+            FlatLight& part = parts[static_cast<std::size_t>(i)];
             part.size_x /= across;
             part.size_y /= across;
             part.power /= across * across;
             part.position.x += whole.size_x * ((i % across + 0.5) / across - 0.5);
             part.position.y += whole.size_y * ((i / across + 0.5) / across - 0.5);
         }
-        const auto at_once = surface_irradiance({&whole, 1}, points, normals, options);
-        const auto in_parts = surface_irradiance(parts, points, normals, options);
+        const auto at_once = surface_irradiance({whole}, points, normals, options);
+        const auto in_parts = surface_irradiance(made(parts), points, normals, options);
         double largest = 0;
         for (const glm::dvec3& e : in_parts) largest = std::max(largest, e.r);
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -145,15 +145,15 @@ TEST(AngularWeight, KeepsDiffuseLightAndTurnsTheRest) {
     const Environment even(glm::dvec3(2.0));
     EXPECT_NEAR(even.irradiance({0, 0, 1}, &weight).b, 2 * pi, 1e-12);
 
-    Light light;
+    FlatLight light;
     light.position = {0, 0, 1};
     const std::vector<glm::dvec3> point = {glm::dvec3(0.0)};
     const std::vector<glm::dvec3> normal = {{0, std::sqrt(0.91), 0.3}};
-    const double plain = surface_irradiance({&light, 1}, point, normal)[0].r;
-    const double weighted = surface_irradiance({&light, 1}, point, normal, {.angular_weight = &weight})[0].r;
+    const double plain = surface_irradiance({light}, point, normal)[0].r;
+    const double weighted = surface_irradiance({light}, point, normal, {.angular_weight = &weight})[0].r;
     EXPECT_NEAR(weighted / plain, weight.at(0.3).r, 1e-12);
     const AngularWeight flat(std::vector<double>{0.5}, std::vector<double>{7.0});
-    EXPECT_NEAR(surface_irradiance({&light, 1}, point, normal, {.angular_weight = &flat})[0].r, plain, 1e-15);
+    EXPECT_NEAR(surface_irradiance({light}, point, normal, {.angular_weight = &flat})[0].r, plain, 1e-15);
     EXPECT_THROW(AngularWeight(mu, std::vector<double>{1.0, 2.0}), std::invalid_argument);
     EXPECT_THROW(AngularWeight(mu, std::vector<double>(3, 0.0)), std::invalid_argument);
     EXPECT_THROW(AngularWeight(std::vector<double>{0.5, 0.5}, std::vector<double>{1.0, 2.0}),

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
+#include <skinglow/light_weights.h>
 #include <skinglow/lut.h>
 
 #include <cmath>
 #include <limits>
 
-#include "light/light_weights.h"
 #include "table1.h"
 
 namespace skinglow {

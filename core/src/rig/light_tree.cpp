@@ -1,0 +1,131 @@
+#include "rig/light_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "geometry/vector.h"
+#include "rig/light_bounds.h"
+
+namespace skinglow::detail {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// The smallest cone around two; grown a little, so that rounding leaves nothing out.
+NormalCone cone_around(const NormalCone& a, const NormalCone& b) {
+    const double between = angle_between(a.axis, b.axis);
+    if (between + b.half_angle <= a.half_angle) return a;
+    if (between + a.half_angle <= b.half_angle) return b;
+    const double wide = 0.5 * (a.half_angle + between + b.half_angle) + 1e-9;
+    const glm::dvec3 across = b.axis - glm::dot(a.axis, b.axis) * a.axis;
+    if (wide >= pi || length(across) < 1e-9) return {a.axis, pi};
+    const double turn = wide - a.half_angle;
+    return {unit(std::cos(turn) * a.axis + std::sin(turn) * unit(across)), wide};
+}
+
+glm::dvec3 position(const RigLight* leaf) {
+    return leaf->light.position();
+}
+
+}  // namespace
+
+LightTree::LightTree(std::span<const RigLight> lights) {
+    for (const RigLight& one : lights) {
+        if (one.shines) {
+            leaves_.push_back(&one);
+        } else {
+            off_.push_back(one.index);
+        }
+    }
+    const auto suns = std::stable_partition(leaves_.begin(), leaves_.end(), [](const RigLight* leaf) {
+        return leaf->light.kind() != LightKind::sun;
+    });
+    const auto sun_begin = static_cast<std::size_t>(suns - leaves_.begin());
+    nodes_.reserve(2 * leaves_.size());
+    if (sun_begin > 0) root_ = build(0, sun_begin);
+    first_sun_ = nodes_.size();
+    for (std::size_t i = sun_begin; i < leaves_.size(); ++i) nodes_.push_back(node_of_leaf(i));
+}
+
+LightTree::Node LightTree::node_of_leaf(std::size_t leaf) const {
+    const PreparedLight& light = leaves_[leaf]->light;
+    Node node{.begin = leaf, .end = leaf + 1, .extent = {}};
+    glm::dvec3 extent(light.radius());
+    double at_distance = 0.25 / pi;
+    double anywhere = 0.25 / pi / std::pow(std::max(light.radius(), min_light_distance), 2);
+    node.half_angle = pi;
+    if (light.kind() == LightKind::spot) node.half_angle = light.spot()->edge() + 1e-9;
+    if (light.kind() == LightKind::area) {
+        const AreaEmitter& area = *light.area();
+        const double scale = light.area_scale();
+        // Heights over the light are held above a minimum: as if it stood that much nearer.
+        extent = half_extent(light) + glm::dvec3(min_light_distance + 2e-9 * scale);
+        at_distance = area.axis_gain() / pi;
+        anywhere = area.axis_gain() / area.area() / scale / scale;
+        node.half_angle = std::min(pi, area.half_spread() + 1e-9);
+    }
+    node.axis = light.direction();
+    node.extent = {light.position() - extent, light.position() + extent};
+    node.at_distance = glm::abs(leaves_[leaf]->scaled(at_distance));
+    node.anywhere = glm::abs(leaves_[leaf]->scaled(anywhere));
+    return node;
+}
+
+std::int64_t LightTree::build(std::size_t begin, std::size_t end) {
+    if (end - begin == 1) {
+        nodes_.push_back(node_of_leaf(begin));
+        return static_cast<std::int64_t>(nodes_.size()) - 1;
+    }
+    Box box{position(leaves_[begin]), position(leaves_[begin])};
+    for (std::size_t i = begin; i < end; ++i) {
+        box = {glm::min(box.min, position(leaves_[i])), glm::max(box.max, position(leaves_[i]))};
+    }
+    const glm::dvec3 size = box.half_extent();
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const std::size_t middle = begin + (end - begin) / 2;
+    const auto at = [&](std::size_t i) { return leaves_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(begin), at(middle), at(end), [axis](const RigLight* a, const RigLight* b) {
+        return position(a)[axis] < position(b)[axis];
+    });
+    const std::int64_t left = build(begin, middle);
+    const std::int64_t right = build(middle, end);
+    const Node& a = node(left);
+    const Node& b = node(right);
+    const NormalCone cone = cone_around({a.axis, a.half_angle}, {b.axis, b.half_angle});
+    nodes_.push_back({.begin = begin,
+                      .end = end,
+                      .left = left,
+                      .right = right,
+                      .extent = {glm::min(a.extent.min, b.extent.min), glm::max(a.extent.max, b.extent.max)},
+                      .at_distance = a.at_distance + b.at_distance,
+                      .anywhere = a.anywhere + b.anywhere,
+                      .axis = cone.axis,
+                      .half_angle = cone.half_angle});
+    return static_cast<std::int64_t>(nodes_.size()) - 1;
+}
+
+glm::dvec3 LightTree::bound(const Node& node, const Box& box) const {
+    if (node.left < 0) {
+        const RigLight& leaf = *leaves_[node.begin];
+        return glm::abs(leaf.scaled(irradiance_range(leaf.light, box).max));
+    }
+    const double gap = distance_between(node.extent, box) * (1 - 1e-9);
+    const glm::dvec3 anywhere = node.anywhere * (1 + 1e-6);
+    if (gap == 0.0) return anywhere;
+    const double radius = box.radius() + node.extent.radius();
+    if (min_angle(node.axis, box.center() - node.extent.center(), radius) > node.half_angle + 1e-9)
+        return glm::dvec3(0.0);
+    return glm::min(node.at_distance * ((1 + 1e-6) / gap / gap), anywhere);
+}
+
+std::vector<std::size_t> LightTree::lights_of(const Node& node) const {
+    std::vector<std::size_t> lights;
+    for (std::size_t i = node.begin; i < node.end; ++i) lights.push_back(leaves_[i]->index);
+    std::sort(lights.begin(), lights.end());
+    return lights;
+}
+
+}  // namespace skinglow::detail

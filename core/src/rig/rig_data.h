@@ -1,0 +1,56 @@
+#pragma once
+
+#include <skinglow/light.h>
+#include <skinglow/rig.h>
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "radiometry/prepared_light.h"
+
+namespace skinglow::detail {
+
+/// A light of a rig, ready for every query.
+struct RigLight {
+    std::size_t index;  ///< in the list of lights
+    PreparedLight light;
+    glm::dvec3 color;
+    double power;
+    bool shines;  ///< on, and its cone or spread has a width
+
+    /// Irradiance from what a unit of power gives. One factor for all channels: a black channel stays
+    /// exactly black.
+    glm::dvec3 scaled(double per_power) const { return color * (power * per_power); }
+    glm::dvec3 strength() const { return color * power; }
+};
+
+class LightTree;
+
+struct RigData {
+    explicit RigData(std::vector<Light> given);
+    RigData(const RigData&) = delete;
+    RigData& operator=(const RigData&) = delete;
+    ~RigData();
+
+    /// Made by the first call.
+    const LightTree& tree() const;
+
+    const std::vector<Light> lights;
+    std::vector<RigLight> prepared;  ///< one per light, in their order
+
+  private:
+    mutable std::once_flag tree_made_;
+    mutable std::unique_ptr<const LightTree> tree_;
+};
+
+/// Throws std::invalid_argument unless there are as many normals as points, all finite; names the entry.
+void require_surface(std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals);
+
+/// Unit vector of a normal of any length; throws std::invalid_argument where it is 0 or not finite.
+glm::dvec3 unit_normal(const glm::dvec3& normal);
+
+}  // namespace skinglow::detail
