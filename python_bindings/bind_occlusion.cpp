@@ -62,8 +62,9 @@ void bind_occlusion(py::module_& m) {
         .def(py::init(&make_occluders), "meshes"_a, "origin"_a)
         .def_property_readonly("triangles", &Occluders::triangles, "Triangles with area.")
         .def("__len__", &Occluders::meshes)
-        .def("visible_fraction", &visible_fraction_of_arrays, "lights"_a, "points"_a, "normals"_a, "samples"_a,
-             "excluded"_a, "threads"_a, "See skinglow.Occluders.visible_fraction: (mean, at_points).");
+        .def("visible_fraction", &visible_fraction_of_arrays, "lights"_a, "points"_a, "normals"_a,
+             "samples"_a, "excluded"_a, "threads"_a,
+             "See skinglow.Occluders.visible_fraction: (mean, at_points).");
 }
 
 }  // namespace skinglow

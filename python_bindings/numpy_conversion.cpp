@@ -36,7 +36,8 @@ Array to_array(py::handle value, std::string_view name) {
         PyErr_Clear();
         refuse_argument(name, py::repr(value).cast<std::string>(), "numbers");
     }
-    // What numpy casts to float64 as of the "same kind". It would also read text, drop imaginary parts and count days.
+    // What numpy casts to float64 as of the "same kind". It would also read text, drop imaginary parts and
+    // count days.
     if (std::string_view("biuf").find(given.dtype().kind()) == std::string_view::npos) {
         refuse_argument(name, "of type " + py::str(given.dtype()).cast<std::string>(),
                         "real numbers (a boolean, integer or float type)");

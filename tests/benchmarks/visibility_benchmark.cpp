@@ -1,14 +1,14 @@
 #include <benchmark/benchmark.h>
+#include <skinglow/occlusion.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <skinglow/occlusion.h>
 
 #include "../core/mesh_shapes.h"
 #include "bare_embree.h"
 
-/// Shadow rays a second, against Embree alone, and growth with triangles, lights and threads. The scene is a ball
-/// between points on a floor and a light above: some rays meet it.
+/// Shadow rays a second, against Embree alone, and growth with triangles, lights and threads. The scene is a
+/// ball between points on a floor and a light above: some rays meet it.
 namespace {
 
 using namespace skinglow;

@@ -1,13 +1,13 @@
 #include "rays/light_sampling.h"
 
 #include <gtest/gtest.h>
+#include <skinglow/box.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <random>
-#include <skinglow/box.h>
 #include <vector>
 
 #include "geometry/vector.h"
@@ -21,10 +21,11 @@ constexpr std::size_t bins = 10;  // along each of the two coordinates
 /// Of 99 degrees of freedom: exceeded by one sound sampler in a million.
 constexpr double chi_square_limit = 176.0;
 
-/// Chi-square of counts that should all be equal, of points of the unit square. The uniform numbers are a fixed
-/// sequence.
+/// Chi-square of counts that should all be equal, of points of the unit square. The uniform numbers are a
+/// fixed sequence.
 template <typename ToSquare>
-double chi_square(const PreparedLight& light, const glm::dvec3& point, const glm::dvec3& normal, ToSquare to_square) {
+double chi_square(const PreparedLight& light, const glm::dvec3& point, const glm::dvec3& normal,
+                  ToSquare to_square) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     std::vector<double> counts(bins * bins, 0.0);
@@ -61,8 +62,9 @@ TEST(SampleLight, CoversTheSunEvenly) {
     sun.direction = {1, 2, -3};
     sun.sun_angle = 0.6;
     const glm::dvec3 axis = -unit(sun.direction);
-    EXPECT_LT(chi_square(PreparedLight(sun), {}, {0, 0, 1}, [&](const auto& s) { return on_cap(s, axis, 0.3); }),
-              chi_square_limit);
+    EXPECT_LT(
+        chi_square(PreparedLight(sun), {}, {0, 0, 1}, [&](const auto& s) { return on_cap(s, axis, 0.3); }),
+        chi_square_limit);
 }
 
 TEST(SampleLight, CoversABallEvenlyFromOutsideAndTheHemisphereFromWithin) {

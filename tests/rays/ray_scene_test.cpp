@@ -1,9 +1,9 @@
 #include "rays/ray_scene.h"
 
 #include <gtest/gtest.h>
+#include <skinglow/thickness.h>
 
 #include <glm/geometric.hpp>
-#include <skinglow/thickness.h>
 #include <stdexcept>
 #include <string>
 
@@ -30,7 +30,8 @@ double exit_distance(const Mesh& mesh, const glm::dvec3& from, const glm::dvec3&
         if (!exit) return -1.0;
         const WeldedTriangle& t = welded.triangles()[*exit];
         const glm::dvec3& origin = welded.positions()[vertex];
-        return (t.plane - glm::dot(t.unit_normal, origin)) / glm::dot(t.unit_normal, direction) * welded.scale();
+        return (t.plane - glm::dot(t.unit_normal, origin)) / glm::dot(t.unit_normal, direction) *
+               welded.scale();
     }
     throw std::logic_error("no such vertex");
 }
@@ -70,8 +71,8 @@ TEST(ExitTriangle, EndsBeforeACavityAndABodyThatTouchesIsOne) {
 }
 
 TEST(ExitTriangle, CountsASurfaceOnceWhereTheRayMeetsItsEdges) {
-    // Straight down the ray passes through a corner of each grid of an even number of cells, and along an edge of two
-    // triangles of the others.
+    // Straight down the ray passes through a corner of each grid of an even number of cells, and along an
+    // edge of two triangles of the others.
     for (const std::uint32_t cells : {1U, 2U, 3U, 4U}) {
         Mesh mesh = body();
         for (int i = 0; i < 4; ++i) mesh.append(moved(shapes::box({4, 4, 1}, cells), {3, 3, 1.0 + 2 * i}));

@@ -1,6 +1,5 @@
-#include <skinglow/thickness.h>
-
 #include <gtest/gtest.h>
+#include <skinglow/thickness.h>
 
 #include <algorithm>
 #include <cmath>
@@ -248,9 +247,8 @@ TEST(Thickness, ReportsProgressAndStopsWhenAsked) {
     EXPECT_EQ(told.back(), 1.0);
 
     int calls = 0;
-    EXPECT_THROW(
-        thickness(mesh.view(), {.threads = 2}, [&](double) { return ++calls < 3; }),
-        ThicknessCancelled);
+    EXPECT_THROW(thickness(mesh.view(), {.threads = 2}, [&](double) { return ++calls < 3; }),
+                 ThicknessCancelled);
     EXPECT_EQ(calls, 3);
 }
 

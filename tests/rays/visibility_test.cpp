@@ -1,6 +1,5 @@
-#include <skinglow/occlusion.h>
-
 #include <gtest/gtest.h>
+#include <skinglow/occlusion.h>
 
 #include <cmath>
 #include <functional>
@@ -62,7 +61,8 @@ Light area_lamp(AreaShape shape, double size_x, double size_y, double height) {
 
 double share(const Occluders& occluders, const Light& light, const glm::dvec3& point = glm::dvec3(0),
              const glm::dvec3& normal = up, const VisibilityOptions& options = {}) {
-    const VisibleFraction found = visible_fraction(occluders, {&light, 1}, {&point, 1}, {&normal, 1}, options);
+    const VisibleFraction found =
+        visible_fraction(occluders, {&light, 1}, {&point, 1}, {&normal, 1}, options);
     EXPECT_DOUBLE_EQ(found.mean[0], found.at_points[0]);
     return found.mean[0];
 }
@@ -168,8 +168,9 @@ TEST(Visibility, MeshesLeftOutDoNotCount) {
     EXPECT_EQ(share(occluders, lamp, {}, up, {.excluded = {0, 1}}), 0.0);
     EXPECT_EQ(share(occluders, lamp, {}, up, {.excluded = {1, 2}}), 0.0);
     EXPECT_EQ(share(occluders, lamp, {}, up, {.excluded = {2, 0, 1}}), 1.0);
-    EXPECT_NE(refusal([&] { share(occluders, lamp, {}, up, {.excluded = {3}}); }).find("is 3; allowed: below"),
-              std::string::npos);
+    EXPECT_NE(
+        refusal([&] { share(occluders, lamp, {}, up, {.excluded = {3}}); }).find("is 3; allowed: below"),
+        std::string::npos);
 }
 
 TEST(Visibility, MeanCountsPlacesByWhatTheLampWouldBring) {

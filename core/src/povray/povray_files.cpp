@@ -1,6 +1,7 @@
+#include <skinglow/povray.h>
+
 #include <algorithm>
 #include <iterator>
-#include <skinglow/povray.h>
 #include <utility>
 
 #include "numerics/argument_check.h"

@@ -63,8 +63,8 @@ void add_spot(SdlText& text, const Light& light, const PreparedLight& prepared) 
 }
 
 /// A spread fades from its axis on by Blender's (tan h - tan t) / tan h, which is not among POV-Ray's laws: a
-/// smoothstep in the cosine, times the cosine to a power, is made to agree on the axis, at the edge and half-way
-/// between them. Written in half angles, because differences of cosines near 1 would cancel.
+/// smoothstep in the cosine, times the cosine to a power, is made to agree on the axis, at the edge and
+/// half-way between them. Written in half angles, because differences of cosines near 1 would cancel.
 double spread_tightness(double half_spread) {
     const double sine = std::sin(0.5 * half_spread);
     const double fraction = std::sin(0.75 * half_spread) * std::sin(0.25 * half_spread) / (sine * sine);
@@ -84,7 +84,8 @@ void add_area(SdlText& text, const Light& light, const PreparedLight& prepared) 
     text.add(" radius ").add(lambert ? falloff : 0.0).add(" falloff ").add(falloff);
     text.add(" tightness ").add(lambert ? 1.0 : spread_tightness(half_spread));
     if (light.size_x > 0.0 || light.size_y > 0.0) {
-        // POV-Ray's samples reach the rim: nine of them over sqrt(8/10) of the width spread as the whole width does.
+        // POV-Ray's samples reach the rim: nine of them over sqrt(8/10) of the width spread as the whole
+        // width does.
         const double inner = std::sqrt(0.8);
         text.add("\n  area_light ").add(inner * light.size_x * prepared.frame()[0]).add(", ");
         text.add(inner * light.size_y * prepared.frame()[1]).add(", 9, 9 adaptive 1 area_illumination on");
@@ -108,7 +109,9 @@ std::string povray_lights_text(const std::vector<Light>& lights_on, const Box& b
     for (const Light& light : lights_on) {
         const PreparedLight prepared(light);
         if (prepared.dark()) continue;
-        text.add("// " + sdl_comment(light.name) + " (").add(to_text(light.kind)).add(")\nlight_source {\n  ");
+        text.add("// " + sdl_comment(light.name) + " (")
+            .add(to_text(light.kind))
+            .add(")\nlight_source {\n  ");
         if (light.kind == LightKind::sun) {
             add_sun(text, light, prepared, bounds);
         } else if (light.kind == LightKind::area) {

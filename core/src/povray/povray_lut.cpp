@@ -111,9 +111,13 @@ void validate(const PovrayLut& lut) {
 std::string povray_lut_text(const PovrayLut& lut, const std::vector<Light>& lights_on) {
     SdlText text;
     text.add("// Lookup of the light that comes through, mode `").add(to_text(lut.mode)).add("`: ");
-    text.add(static_cast<std::uint32_t>(lut.axis.size())).add(" entries, 0 to ").add(lut.axis.max_thickness_mm());
+    text.add(static_cast<std::uint32_t>(lut.axis.size()))
+        .add(" entries, 0 to ")
+        .add(lut.axis.max_thickness_mm());
     text.add(" mm, at the centers of u's texels. Linear Rec.709.\n#include \"skinglow.inc\"\n");
-    text.add("#declare Skinglow_Strength = ").add(lut.strength).add(";  // radiance shown = strength * lookup\n");
+    text.add("#declare Skinglow_Strength = ")
+        .add(lut.strength)
+        .add(";  // radiance shown = strength * lookup\n");
     if (lut.glow == PovrayGlow::image) {
         text.add("#declare Skinglow_Lookup = ")
             .add("Skinglow_Image_Pigment(" + sdl_string("LUT image", lut.image) + ")\n");

@@ -1,8 +1,9 @@
+#include <skinglow/occlusion.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <skinglow/occlusion.h>
 #include <string>
 
 #include "numerics/argument_check.h"
@@ -23,9 +24,9 @@ double fractional_part(double value) {
     return value - std::floor(value);
 }
 
-/// Points of the unit square: the rank-1 lattice of the golden ratio, shifted by the point's own member of the R2
-/// sequence (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018), whose base is the real
-/// root of x^3 = x + 1.
+/// Points of the unit square: the rank-1 lattice of the golden ratio, shifted by the point's own member of
+/// the R2 sequence (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018), whose base
+/// is the real root of x^3 = x + 1.
 struct ShiftedLattice {
     double shift_u, shift_v;
     int count;
@@ -60,8 +61,7 @@ struct Query {
                     std::size_t index) const {
         if (is_sharp(light, point)) {
             const bool is_sun = light.kind() == LightKind::sun;
-            const double distance =
-                is_sun ? std::numeric_limits<double>::infinity() : light.distance(point);
+            const double distance = is_sun ? std::numeric_limits<double>::infinity() : light.distance(point);
             return sees(point, {light.to_light(point), distance, 1.0}) ? 1.0 : 0.0;
         }
         const ShiftedLattice lattice(index, samples);
