@@ -15,7 +15,8 @@ namespace py = pybind11;
 namespace skinglow::numpy {
 namespace {
 
-/// (m, 3) whole numbers that 32 bits hold; that they are below the number of vertices is for the mesh to check.
+/// (m, 3) whole numbers that 32 bits hold; that they are below the number of vertices is for the mesh to
+/// check.
 std::vector<glm::uvec3> to_triangles(py::handle value, const std::string& name, std::size_t vertices) {
     // Through 64 bits, so that a negative index is refused and not wrapped.
     using IndexArray = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;

@@ -10,8 +10,7 @@ namespace py = pybind11;
 namespace skinglow::numpy {
 namespace {
 
-/// Moves the values to the heap and gives numpy a capsule that frees them with the last array that looks at
-/// them.
+/// Moves the values to the heap, owned by a capsule that frees them with the last array that views them.
 template <typename Value>
 std::pair<Value*, py::capsule> keep(std::vector<Value>&& values) {
     auto kept = std::make_unique<std::vector<Value>>(std::move(values));
@@ -32,13 +31,18 @@ std::string shape_text(const py::array& array) {
 }
 
 Array to_array(py::handle value, std::string_view name) {
-    Array array = Array::ensure(value);
-    if (!array) {
+    const py::array given = py::array::ensure(value);
+    if (!given) {
         PyErr_Clear();
-        refuse_argument(name, py::repr(value).cast<std::string>(),
-                        "numbers (anything numpy reads as float64)");
+        refuse_argument(name, py::repr(value).cast<std::string>(), "numbers");
     }
-    return array;
+    // What numpy casts to float64 as of the "same kind". It would also read text, drop imaginary parts and
+    // count days.
+    if (std::string_view("biuf").find(given.dtype().kind()) == std::string_view::npos) {
+        refuse_argument(name, "of type " + py::str(given.dtype()).cast<std::string>(),
+                        "real numbers (a boolean, integer or float type)");
+    }
+    return Array::ensure(given);
 }
 
 glm::dvec3 to_vec3(py::handle value, std::string_view name) {

@@ -19,7 +19,8 @@ using Array = pybind11::array_t<double, pybind11::array::c_style | pybind11::arr
 /// "(2, 3)", as numpy writes it.
 std::string shape_text(const pybind11::array& array);
 
-/// Any array-like of numbers as contiguous doubles; throws ValueError naming the argument otherwise.
+/// Any array-like of real numbers as contiguous doubles; throws ValueError naming the argument on anything
+/// else, text and complex numbers included.
 Array to_array(pybind11::handle value, std::string_view name);
 
 /// Three numbers.

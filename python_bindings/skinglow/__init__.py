@@ -63,11 +63,10 @@ from skinglow._core import (
     unnormalized_power_factor,
 )
 from skinglow._occlusion import Occluders, VisibleFraction
-from skinglow._renamed import __getattr__
+from skinglow._renamed import __getattr__ as __getattr__
 from skinglow._thickness import thickness
 
 __all__ = [
-    "__getattr__",
     "__version__",
     # Lights, and the paper's weight of them (Eq. 2 and 3)
     "Light",

@@ -1,5 +1,4 @@
 #include <benchmark/benchmark.h>
-
 #include <skinglow/thickness.h>
 
 #include <vector>
@@ -10,8 +9,8 @@
 #include "geometry/welded_mesh.h"
 #include "rays/direction_sampling.h"
 
-/// What a thickness costs, against the same rays by Embree alone. The shell is about as fine as a head (13,000
-/// vertices).
+/// What a thickness costs, against the same rays by Embree alone. The shell is about as fine as a head
+/// (13,000 vertices).
 namespace {
 
 using skinglow::shapes::Mesh;
@@ -66,8 +65,8 @@ void head_sized_bare_embree(benchmark::State& state) {
     std::vector<glm::uvec3> corners;
     for (const auto& t : mesh.triangles()) corners.push_back(t.corners);
     const skinglow::benchmarks::BareEmbree scene(mesh.positions(), corners);
-    const auto directions = skinglow::detail::cone_directions(
-        static_cast<int>(state.range(0)), skinglow::ThicknessOptions{}.cone_half_angle);
+    const auto directions = skinglow::detail::cone_directions(static_cast<int>(state.range(0)),
+                                                              skinglow::ThicknessOptions{}.cone_half_angle);
     for (auto _ : state) {
         for (std::uint32_t i = 0; i < mesh.positions().size(); ++i) {
             const glm::dmat3 frame = skinglow::detail::frame_around(-mesh.vertex_normal(i));

@@ -8,8 +8,8 @@
 #include "../core/mesh_shapes.h"
 #include "bare_embree.h"
 
-/// Shadow rays a second, against Embree alone, and growth with triangles, lights and threads. The scene is a ball
-/// between points on a floor and a light above: some rays meet it.
+/// Shadow rays a second, against Embree alone, and growth with triangles, lights and threads. The scene is a
+/// ball between points on a floor and a light above: some rays meet it.
 namespace {
 
 using namespace skinglow;

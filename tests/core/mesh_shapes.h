@@ -1,12 +1,13 @@
 #pragma once
 
+#include <skinglow/mesh.h>
+
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <map>
-#include <skinglow/mesh.h>
 #include <utility>
 #include <vector>
 

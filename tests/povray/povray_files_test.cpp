@@ -1,7 +1,6 @@
-#include <skinglow/povray.h>
-
 #include <gtest/gtest.h>
 #include <skinglow/lut.h>
+#include <skinglow/povray.h>
 
 #include <algorithm>
 #include <cmath>

@@ -64,6 +64,14 @@ def test_table_1(tmp_path):
         assert quarter[i] == pytest.approx(float((Fraction(BLOOD[i]) + light) / 4), rel=1e-12, abs=0)
 
 
+def test_former_name_of_a_macro_goes_on_working(tmp_path):
+    declared = sdl_array("Base", ["1", "0.25"])
+    declared += "#declare A = Skinglow_Recolor(Base, <1,2,3>, <4,5,6>)\n"
+    declared += "#declare B = Skinglow_Recolour(Base, <1,2,3>, <4,5,6>)\n"
+    found = vectors(tmp_path, ["A[0]", "B[0]", "A[1]", "B[1]"], declared)
+    assert found.tolist() == [[5, 7, 9], [5, 7, 9], [1.25, 1.75, 2.25], [1.25, 1.75, 2.25]]
+
+
 def test_verification_scene_of_table_1(tmp_path):
     write(tmp_path, {p.name: p.read_text() for p in MACROS.glob("*.*") if p.suffix != ".pov"})
     (tmp_path / "verify.pov").write_text((MACROS / "verify_equations.pov").read_text())

@@ -108,3 +108,22 @@ def test_cones_of_no_angle_give_nothing(tmp_path):
         sg.Light("AREA", position=above(), power=9, spread=0),
     ]
     np.testing.assert_array_equal(radiance(tmp_path, *shut), 0)
+
+
+def test_extreme_lights_are_read_and_say_the_same(tmp_path):
+    """Lengths of directions do not matter, to any exponent; spreads go down to none, with a finite picture."""
+    lamps = [
+        sg.Light(kind, position=above(), direction=(0, 0, -length), power=1, spread=0.5, spot_angle=0.5)
+        for kind in ("SPOT", "AREA", "SUN")
+        for length in (1, 1e-170, 1e200)
+    ]
+    found = [radiance(tmp_path, *lamps[i::3]) for i in range(3)]
+    assert found[0].max() > 0
+    np.testing.assert_allclose(found[1], found[0], atol=STEP_16_BIT)
+    np.testing.assert_allclose(found[2], found[0], atol=STEP_16_BIT)
+    narrow = [
+        sg.Light("AREA", position=(1e-3, 0, 2), direction=(0, 0, -1), power=1e-9, spread=spread)
+        for spread in (0.0, 1e-300, 1e-8, 1e-5, 1e-3)
+    ]
+    far = [sg.Light("SPOT", position=(0, 0, 1e20), direction=(0, 0, -1), power=1, radius=1e-170)]
+    assert np.isfinite(radiance(tmp_path, *narrow, *far)).all()

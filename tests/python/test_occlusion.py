@@ -191,6 +191,20 @@ def test_refusals_name_argument_value_and_what_is_allowed(change, message):
         sg.Occluders([ball()]).visible_fraction(**arguments)
 
 
+def test_former_names_go_on_working_with_a_warning():
+    scene = sg.Occluders([ball()])
+    lamp = sg.Light(position=(0, 0, 5))
+    with pytest.warns(DeprecationWarning) as told:
+        found = scene.visible_share([lamp], [[0, 0, -5]], UP, without=[0])
+    assert {str(w.message) for w in told} == {
+        "Occluders.visible_share is now visible_fraction",
+        "visible_fraction: without is now excluded",
+    }
+    assert found.mean == 1
+    with pytest.warns(DeprecationWarning, match="skinglow.VisibleFraction"):
+        assert isinstance(found, sg.VisibleShare)
+
+
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads /proc/self/maps")
 def test_embree_is_loaded_by_the_first_occluders_and_not_before():
     code = """

@@ -120,6 +120,15 @@ def test_refusals_name_argument_value_and_what_is_allowed(change, message):
         thickness(**arguments)
 
 
+def test_former_keyword_goes_on_working_with_a_warning():
+    mesh = sphere(1.0, 2)
+    with pytest.warns(DeprecationWarning, match="min_openness is now min_sky_visibility"):
+        found = thickness(*mesh, min_openness=0.1)
+    np.testing.assert_array_equal(found, thickness(*mesh, min_sky_visibility=0.1))
+    with pytest.raises(TypeError, match="min_sky_visibility.*former name.*min_openness"):
+        thickness(*mesh, min_openness=0.1, min_sky_visibility=0.1)
+
+
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf")])
 def test_vertex_that_is_not_finite_is_named(value):
     vertices, triangles = sphere(1.0, 1)

@@ -22,8 +22,8 @@ constexpr std::size_t bins = 10;  // along each of the two coordinates
 /// Of 99 degrees of freedom: exceeded by one sound sampler in a million.
 constexpr double chi_square_limit = 176.0;
 
-/// Chi-square of counts that should all be equal, of points of the unit square. The uniform numbers are a fixed
-/// sequence.
+/// Chi-square of counts that should all be equal, of points of the unit square. The uniform numbers are a
+/// fixed sequence.
 template <typename ToSquare>
 double chi_square(const PreparedLight& light, const glm::dvec3& point, const glm::dvec3& normal,
                   ToSquare to_square) {

@@ -71,8 +71,8 @@ TEST(ExitTriangle, EndsBeforeACavityAndABodyThatTouchesIsOne) {
 }
 
 TEST(ExitTriangle, CountsASurfaceOnceWhereTheRayMeetsItsEdges) {
-    // Straight down the ray passes through a corner of each grid of an even number of cells, and along an edge of two
-    // triangles of the others.
+    // Straight down the ray passes through a corner of each grid of an even number of cells, and along an
+    // edge of two triangles of the others.
     for (const std::uint32_t cells : {1U, 2U, 3U, 4U}) {
         Mesh mesh = body();
         for (int i = 0; i < 4; ++i) mesh.append(moved(shapes::box({4, 4, 1}, cells), {3, 3, 1.0 + 2 * i}));

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <skinglow/box.h>
+
 #include <glm/vec3.hpp>
 #include <optional>
-#include <skinglow/box.h>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -25,8 +26,8 @@ class MeshView {
     /// @param vertices   positions, finite, in any unit
     /// @param triangles  three indices into `vertices` each, counter-clockwise seen from outside
     /// @param prefix     put before the array's name in messages, such as "meshes[2] "
-    /// @throws std::invalid_argument naming the first vertex that is not finite or triangle whose index is out of
-    ///         range, or where 32 bits cannot count them
+    /// @throws std::invalid_argument naming the first vertex that is not finite or triangle whose index is
+    ///         out of range, or where 32 bits cannot count them
     MeshView(std::span<const glm::dvec3> vertices, std::span<const glm::uvec3> triangles,
              std::string_view prefix = {});
 
@@ -58,7 +59,8 @@ class TriangleMesh {
     std::vector<glm::uvec3> triangles_;
 };
 
-/// The smallest box around all triangles; vertices that no triangle uses do not count. None without triangles.
+/// The smallest box around all triangles; vertices that no triangle uses do not count. None without
+/// triangles.
 std::optional<Box> box_of(std::span<const MeshView> meshes);
 
 }  // namespace skinglow

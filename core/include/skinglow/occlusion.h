@@ -15,7 +15,8 @@
 /// const std::vector<skinglow::MeshView> meshes = {skin, hat};
 /// const skinglow::Occluders occluders(meshes, center_of_skin);
 /// // The far side of the skin (surface_lighting.h), which the skin itself must not shadow:
-/// const auto visible = skinglow::visible_fraction(occluders, lights, far.points, far.normals, {.excluded = {0}});
+/// const auto visible =
+///     skinglow::visible_fraction(occluders, lights, far.points, far.normals, {.excluded = {0}});
 /// @endcode
 namespace skinglow {
 
@@ -23,9 +24,9 @@ namespace detail {
 class OccluderScene;
 }
 
-/// What may stand between a light and a skin: triangles of several meshes, both sides of which stop light. In single
-/// precision about an origin: what is seen from near it is seen to about 1e-7 of its distance, however large the
-/// scene. May be asked from many threads at once.
+/// What may stand between a light and a skin: triangles of several meshes, both sides of which stop light. In
+/// single precision about an origin: what is seen from near it is seen to about 1e-7 of its distance, however
+/// large the scene. May be asked from many threads at once.
 class Occluders {
   public:
     /// Copies what it needs. Triangles without area stop nothing and are left out.
@@ -47,27 +48,28 @@ class Occluders {
 };
 
 struct VisibilityOptions {
-    /// Rays from a point to a light that has an extent, 1 to 4096; one ray goes to a light that has none. The error
-    /// by number is in docs/accuracy.md.
+    /// Rays from a point to a light that has an extent, 1 to 4096; one ray goes to a light that has none. The
+    /// error by number is in docs/accuracy.md.
     int samples = 16;
     std::vector<std::size_t> excluded = {};  ///< indices of meshes that do not count: the skin's own
     int threads = 0;                         ///< 0: one for each processor. The result does not depend on it.
 };
 
 struct VisibleFraction {
-    /// Fraction of each light that arrives at each point, [0, 1]: point i, light k at [i * lights + k]. 1 where the
-    /// light contributes nothing anyway (below the horizon, outside the cone, off).
+    /// Fraction of each light that arrives at each point, [0, 1]: point i, light k at [i * lights + k]. 1
+    /// where the light contributes nothing anyway (below the horizon, outside the cone, off).
     std::vector<double> at_points;
-    /// For each light the mean over the points, each weighted by the irradiance of the unoccluded light there: the
-    /// factor on its part of the weight of a whole object. 1 where it contributes nothing at any point.
+    /// For each light the mean over the points, each weighted by the irradiance of the unoccluded light
+    /// there: the factor on its part of the weight of a whole object. 1 where it contributes nothing at any
+    /// point.
     std::vector<double> mean;
 };
 
 /// Fraction of each light that is visible from points that face along normals (for skin: its far side).
 ///
 /// Rays go to points that cover the light, each weighted by the irradiance it contributes. They follow a
-/// low-discrepancy sequence, shifted from point to point: nothing is random, and the mean over many points is far
-/// more exact than any one.
+/// low-discrepancy sequence, shifted from point to point: nothing is random, and the mean over many points is
+/// far more exact than any one.
 /// @param occluders  what is in the way
 /// @param lights     as everywhere; those that are off are not traced
 /// @param points     world space, scene unit, finite

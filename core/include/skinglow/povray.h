@@ -35,12 +35,12 @@ namespace skinglow {
 struct PovrayMesh {
     std::string name = "skin";  ///< any text; becomes the SDL identifier Skinglow_Mesh_<name>
     TriangleMesh geometry;      ///< at least one triangle
-    /// Image coordinate of each vertex in the lookup: axis.texel_scale() * thickness + axis.texel_offset(). It is
-    /// clamped to the centers of the first and the last texel on writing. Finite; as many as vertices.
+    /// Image coordinate of each vertex in the lookup: axis.texel_scale() * thickness + axis.texel_offset().
+    /// It is clamped to the centers of the first and the last texel on writing. Finite; as many as vertices.
     std::vector<double> lut_u;
-    /// Smooth shading: one normal per vertex, or three per triangle, not both; none: flat. Finite; a normal of length
-    /// 0, as hosts give at triangles without area, becomes +z. Written only where the scene has a surface: glow alone
-    /// does not need them.
+    /// Smooth shading: one normal per vertex, or three per triangle, not both; none: flat. Finite; a normal
+    /// of length 0, as hosts give at triangles without area, becomes +z. Written only where the scene has a
+    /// surface: glow alone does not need them.
     std::vector<glm::dvec3> vertex_normals;
     std::vector<glm::dvec3> corner_normals;
     /// Coordinates of the surface's picture, three per triangle, v up; needed only with PovraySurface::image.
@@ -60,8 +60,8 @@ struct PovrayCamera {
     std::uint32_t height = 512;  ///< pixels, 1 to 65535
 };
 
-/// Sets projection and window from the 4x4 projection matrix of the picture: sensor fit, shift and pixel aspect are
-/// all in it.
+/// Sets projection and window from the 4x4 projection matrix of the picture: sensor fit, shift and pixel
+/// aspect are all in it.
 /// @param projection  column vectors, as OpenGL and Blender's `camera.calc_matrix_camera(depsgraph, x=width,
 ///                    y=height)` have it
 /// @throws std::invalid_argument where it is neither a perspective nor an orthographic projection
@@ -116,26 +116,26 @@ struct PovrayScene {
     glm::dvec3 background{0.0};            ///< linear Rec.709 radiance, 0 or more
 };
 
-/// The files of a POV-Ray 3.7 scene, by name; only those that it uses. Text alone: whoever calls writes them, all into
-/// one folder, besides the pictures that the scene names. Rendered from within the folder: POV-Ray's Debian set-up
-/// lets it read nothing outside of the working directory.
+/// The files of a POV-Ray 3.7 scene, by name; only those that it uses. Text alone: whoever calls writes them,
+/// all into one folder, besides the pictures that the scene names. Rendered from within the folder: POV-Ray's
+/// Debian set-up lets it read nothing outside of the working directory.
 ///
-/// | file         | holds                                                                                          |
-/// |--------------|------------------------------------------------------------------------------------------------|
-/// | scene.ini    | size and options: `povray scene.ini` gives scene.exr, `povray scene.ini +OFILE` another name   |
-/// | scene.pov    | the skin; with a picture on the surface, `Declare=Skinglow_Part=1` renders the surface and     |
-/// |              | `Declare=Skinglow_Part=2` the glow, which are to be added                                      |
-/// | lut.inc      | axis and strength; the EXR's name, or base lookup, weights, coefficients and lights as values  |
-/// | mesh.inc     | mesh2                                                                                          |
-/// | camera.inc   | location, direction, right, up                                                                 |
-/// | lights.inc   | a light_source for each light that is on; not without a surface or without lights              |
-/// | skinglow.inc | the macros (povray_macros/skinglow.inc)                                                        |
+/// | file         | holds                                                                                   |
+/// |--------------|-----------------------------------------------------------------------------------------|
+/// | scene.ini    | size and options: `povray scene.ini` gives scene.exr, with `+OFILE` another file         |
+/// | scene.pov    | the skin; with a picture on its surface, `Declare=Skinglow_Part=1` renders the surface, |
+/// |              | and `Declare=Skinglow_Part=2` the glow, which are to be added                           |
+/// | lut.inc      | axis and strength; the EXR's name, or base lookup, weights, coefficients and lights     |
+/// | mesh.inc     | mesh2                                                                                   |
+/// | camera.inc   | location, direction, right, up                                                          |
+/// | lights.inc   | a light_source for each light that is on; not without a surface or without lights       |
+/// | skinglow.inc | the macros (povray_macros/skinglow.inc)                                                 |
 ///
-/// Numbers are finite and have all digits that they need to be read back as the same double. The same scene gives the
-/// same text.
-/// @throws std::invalid_argument naming the field, the value and what is allowed, on wrong sizes, non-finite numbers,
-///         file names that POV-Ray cannot take, a light beyond what doubles hold, or a mode that the macros do not
-///         compute
+/// Numbers are finite and have all digits that they need to be read back as the same double. The same scene
+/// gives the same text.
+/// @throws std::invalid_argument naming the field, the value and what is allowed, on wrong sizes, non-finite
+///         numbers, file names that POV-Ray cannot take, a light beyond what doubles hold, or a mode that the
+///         macros do not compute
 std::map<std::string, std::string> povray_files(const PovrayScene& scene);
 
 /// The text of povray_macros/skinglow.inc.

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <skinglow/thickness.h>
+
+#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace skinglow::cli {
 /// The options by which commands take a mesh and measure its thickness.
 class MeshOptions {
   public:
-    /// Adds the mesh under the given name ("MESH" or "--mesh"), --unit, --group, --rays and --min-sky-visibility.
+    /// Adds the mesh under the given name ("MESH" or "--mesh"), --unit, --group, --rays and
+    /// --min-sky-visibility.
     void add_to(CLI::App& command, const std::string& mesh_name);
 
     double unit_mm() const { return thickness_.unit_mm; }

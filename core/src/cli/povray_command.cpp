@@ -1,3 +1,5 @@
+#include <skinglow/povray.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -5,7 +7,6 @@
 #include <iostream>
 #include <memory>
 #include <numbers>
-#include <skinglow/povray.h>
 #include <stdexcept>
 #include <system_error>
 

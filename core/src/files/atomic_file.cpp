@@ -33,9 +33,10 @@ class TemporaryFile {
         std::random_device random;
         int descriptor = -1;
         while (descriptor < 0) {
-            path_ = folder_of(target) / (".skinglow-" + std::to_string(random()) + target.extension().string());
-            // With the permissions of an ordinary new file, which mkstemp does not give: the kernel applies the
-            // umask, and nobody has to ask for it by changing it.
+            path_ =
+                folder_of(target) / (".skinglow-" + std::to_string(random()) + target.extension().string());
+            // With the permissions of an ordinary new file, which mkstemp does not give: the kernel applies
+            // the umask, and nobody has to ask for it by changing it.
             descriptor = ::open(path_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
             if (descriptor < 0 && errno != EEXIST) refuse_write(target, errno, folder_remedy);
         }
@@ -59,7 +60,8 @@ void flush_to_disk(const fs::path& path, const fs::path& target, int flags) {
     const int failed = ::fsync(descriptor);
     const int error_number = errno;
     ::close(descriptor);
-    // EINVAL: the file system does not flush (some network and FUSE mounts); the rename is whole all the same.
+    // EINVAL: the file system does not flush (some network and FUSE mounts); the rename is whole all the
+    // same.
     if (failed != 0 && error_number != EINVAL)
         refuse_write(target, error_number, "check the disk and its free space");
 }

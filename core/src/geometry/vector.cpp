@@ -29,8 +29,8 @@ double max_abs(const glm::dvec3& v) {
 
 glm::dvec3 triangle_normal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     constexpr double min_area = 1e-12;  // of the parallelogram, relative to the longest edge's square
-    // Halves, because the difference of two huge coordinates may overflow; then at a size of about 1, so that no
-    // square over- or underflows.
+    // Halves, because the difference of two huge coordinates may overflow; then at a size of about 1, so that
+    // no square over- or underflows.
     glm::dvec3 u = 0.5 * b - 0.5 * a;
     glm::dvec3 v = 0.5 * c - 0.5 * a;
     const double size = std::max(max_abs(u), max_abs(v));

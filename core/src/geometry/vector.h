@@ -22,9 +22,9 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b);
 /// Largest component by magnitude.
 double max_abs(const glm::dvec3& v);
 
-/// Unit normal of a triangle whose corners run counter-clockwise seen from the side it points to; (0, 0, 0) where
-/// the triangle's area is no more than rounding, so that it has no normal and stops no light. For any finite
-/// corners less than the largest double apart.
+/// Unit normal of a triangle whose corners run counter-clockwise seen from the side it points to; (0, 0, 0)
+/// where the triangle's area is no more than rounding, so that it has no normal and stops no light. For any
+/// finite corners less than the largest double apart.
 glm::dvec3 triangle_normal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
 /// Right-handed orthonormal frame, as columns x, y, z, whose z is the unit vector given. It takes directions

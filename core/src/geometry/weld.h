@@ -40,7 +40,8 @@ Weld weld(std::span<const Vector> values) {
     std::vector<std::uint32_t> table(mask + 1, empty);
     for (std::size_t i = 0; i < values.size(); ++i) {
         std::size_t slot = hash_of(values[i]) & mask;
-        while (table[slot] != empty && values[result.first[table[slot]]] != values[i]) slot = (slot + 1) & mask;
+        while (table[slot] != empty && values[result.first[table[slot]]] != values[i])
+            slot = (slot + 1) & mask;
         if (table[slot] == empty) {
             table[slot] = static_cast<std::uint32_t>(result.first.size());
             result.first.push_back(static_cast<std::uint32_t>(i));

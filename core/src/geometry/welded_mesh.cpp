@@ -46,7 +46,8 @@ void WeldedMesh::add_triangles(std::span<const glm::uvec3> triangles) {
 }
 
 void WeldedMesh::orient_outwards() {
-    // Six times the volume, by the divergence theorem, about the box's center: an open head has a clear sign, too.
+    // Six times the volume, by the divergence theorem, about the box's center: an open head has a clear sign,
+    // too.
     double volume = 0;
     for (const WeldedTriangle& t : triangles_) {
         const glm::dvec3& p = positions_[t.corners.x];

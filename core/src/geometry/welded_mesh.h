@@ -16,9 +16,9 @@ struct WeldedTriangle {
 };
 
 /// A mesh prepared for rays: vertices at one position are one vertex (the seams of texture coordinates and of
-/// split normals are gone), triangles without area are gone, and the whole is moved to the origin and scaled to
-/// the unit box, so that single precision serves a mesh of any size, anywhere. Outward is where the triangles'
-/// winding says, flipped as a whole where the mesh encloses a negative volume.
+/// split normals are gone), triangles without area are gone, and the whole is moved to the origin and scaled
+/// to the unit box, so that single precision serves a mesh of any size, anywhere. Outward is where the
+/// triangles' winding says, flipped as a whole where the mesh encloses a negative volume.
 class WeldedMesh {
   public:
     /// @throws std::invalid_argument where the extent of the mesh is beyond the largest double
@@ -31,9 +31,9 @@ class WeldedMesh {
     const std::vector<std::uint32_t>& welded_of() const { return weld_.index; }
     /// Triangles at a welded vertex, ascending.
     std::span<const std::uint32_t> triangles_at(std::uint32_t welded) const;
-    /// Unit vector out of the surface, the faces weighted by their angle at the vertex (Thuermer and Wuethrich,
-    /// "Computing Vertex Normals from Polygonal Facets", J. Graphics Tools 3(1), 1998); (0, 0, 0) where the faces
-    /// cancel out or there are none.
+    /// Unit vector out of the surface, the faces weighted by their angle at the vertex (Thuermer and
+    /// Wuethrich, "Computing Vertex Normals from Polygonal Facets", J. Graphics Tools 3(1), 1998); (0, 0, 0)
+    /// where the faces cancel out or there are none.
     glm::dvec3 vertex_normal(std::uint32_t welded) const;
     /// Length of the unit box's edge in the units given; 0 where all vertices coincide.
     double scale() const { return scale_; }

@@ -50,8 +50,8 @@ void set_projection(PovrayCamera& camera, const glm::dmat4& projection) {
     }
     const double w = perspective ? by_depth : constant;
     for (int k = 0; k < 2; ++k) {
-        // Solved for the coordinate that the picture's edges, -1 and 1, see at depth 1 (perspective) or at any depth
-        // (orthographic).
+        // Solved for the coordinate that the picture's edges, -1 and 1, see at depth 1 (perspective) or at
+        // any depth (orthographic).
         const double offset = perspective ? projection[2][k] : -projection[3][k];
         camera.window_min[k] = (-w + offset) / projection[k][k];
         camera.window_max[k] = (w + offset) / projection[k][k];

@@ -63,8 +63,8 @@ void add_spot(SdlText& text, const SpotLight& light, const PreparedLight& prepar
 }
 
 /// A spread fades from its axis on by Blender's (tan h - tan t) / tan h, which is not among POV-Ray's laws: a
-/// smoothstep in the cosine, times the cosine to a power, is made to agree on the axis, at the edge and half-way
-/// between them. Written in half angles, because differences of cosines near 1 would cancel.
+/// smoothstep in the cosine, times the cosine to a power, is made to agree on the axis, at the edge and
+/// half-way between them. Written in half angles, because differences of cosines near 1 would cancel.
 double spread_tightness(double half_spread) {
     const double sine = std::sin(0.5 * half_spread);
     const double fraction = std::sin(0.75 * half_spread) * std::sin(0.25 * half_spread) / (sine * sine);
@@ -84,7 +84,8 @@ void add_area(SdlText& text, const AreaLight& light, const PreparedLight& prepar
     text.add(" radius ").add(lambert ? falloff : 0.0).add(" falloff ").add(falloff);
     text.add(" tightness ").add(lambert ? 1.0 : spread_tightness(half_spread));
     if (light.size_x > 0.0 || light.size_y > 0.0) {
-        // POV-Ray's samples reach the rim: nine of them over sqrt(8/10) of the width spread as the whole width does.
+        // POV-Ray's samples reach the rim: nine of them over sqrt(8/10) of the width spread as the whole
+        // width does.
         const double inner = std::sqrt(0.8);
         text.add("\n  area_light ").add(inner * light.size_x * prepared.frame()[0]).add(", ");
         text.add(inner * light.size_y * prepared.frame()[1]).add(", 9, 9 adaptive 1 area_illumination on");

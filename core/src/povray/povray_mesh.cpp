@@ -41,8 +41,7 @@ void add_indices(SdlText& text, std::string_view keyword, std::size_t triangles,
 }
 
 void add_corner_indices(SdlText& text, std::string_view keyword, const Weld& corners) {
-    add_indices(text, keyword, corners.index.size() / 3,
-                [&](std::size_t i) { return corners.index[i]; });
+    add_indices(text, keyword, corners.index.size() / 3, [&](std::size_t i) { return corners.index[i]; });
 }
 
 void require_count(std::string_view name, std::size_t count, std::size_t wanted, std::string_view of_what) {
@@ -74,7 +73,8 @@ void validate(const PovrayMesh& mesh, const std::optional<PovraySurface>& surfac
         refuse_argument("normals", "given per vertex and per corner", "one of the two");
     }
     if (!mesh.vertex_normals.empty()) {
-        require_count("vertex_normals", mesh.vertex_normals.size(), mesh.geometry.vertices().size(), "one per vertex");
+        require_count("vertex_normals", mesh.vertex_normals.size(), mesh.geometry.vertices().size(),
+                      "one per vertex");
     }
     if (!mesh.corner_normals.empty()) {
         require_count("corner_normals", mesh.corner_normals.size(), corners, "three per triangle");
@@ -100,7 +100,8 @@ std::string povray_mesh_text(const PovrayScene& scene) {
     text.add("// " + sdl_comment(mesh.name) +
              ": triangles in world space, as Blender has it (right-handed, z up).\n");
     text.add("#declare ").add(mesh_identifier(mesh)).add(" = mesh2 {\n");
-    add_vectors(text, "vertex_vectors", used.first, [&](std::uint32_t i) { return mesh.geometry.vertices()[i]; });
+    add_vectors(text, "vertex_vectors", used.first,
+                [&](std::uint32_t i) { return mesh.geometry.vertices()[i]; });
 
     const std::span<const glm::dvec3> normals =
         mesh.vertex_normals.empty() ? mesh.corner_normals : mesh.vertex_normals;
@@ -124,8 +125,9 @@ std::string povray_mesh_text(const PovrayScene& scene) {
     });
     if (has_picture) text.add("#end\n");
 
-    add_indices(text, "face_indices", mesh.geometry.triangles().size(),
-                [&](std::size_t i) { return used.index[mesh.geometry.triangles()[i / 3][static_cast<int>(i % 3)]]; });
+    add_indices(text, "face_indices", mesh.geometry.triangles().size(), [&](std::size_t i) {
+        return used.index[mesh.geometry.triangles()[i / 3][static_cast<int>(i % 3)]];
+    });
     if (by_corner) add_corner_indices(text, "normal_indices", corner_normals);
     if (has_picture) {
         text.add("#if (Skinglow_Part = 1)\n");

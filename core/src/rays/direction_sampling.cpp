@@ -22,7 +22,8 @@ std::vector<glm::dvec3> cone_directions(int count, double half_angle) {
     const double cap_height = 1.0 - std::cos(half_angle);
     std::vector<glm::dvec3> directions(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
-        // Equal steps of height are equal areas of the sphere; the root makes the density fall to 0 along them.
+        // Equal steps of height are equal areas of the sphere; the root makes the density fall to 0 along
+        // them.
         const double depth = cap_height * (1.0 - std::sqrt(1.0 - static_cast<double>(i) / count));
         directions[static_cast<std::size_t>(i)] = on_spiral(i, std::sqrt(depth * (2.0 - depth)), 1.0 - depth);
     }

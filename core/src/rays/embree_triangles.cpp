@@ -75,8 +75,8 @@ void reject_excluded(const RTCFilterFunctionNArguments* arguments) {
     }
 }
 
-/// Intersection filter: shows each hit to the visitor and rejects it, so that the ray goes on; or accepts it to end the
-/// ray at the limit.
+/// Intersection filter: shows each hit to the visitor and rejects it, so that the ray goes on; or accepts it
+/// to end the ray at the limit.
 void show_to_visitor(const RTCFilterFunctionNArguments* arguments) {
     const HitVisitor& visitor = *reinterpret_cast<const FilterContext*>(arguments->context)->visitor;
     for (unsigned int i = 0; i < arguments->N; ++i) {
@@ -118,8 +118,8 @@ void add_triangles(RTCDevice device, RTCScene scene, std::span<const glm::dvec3>
 }  // namespace
 
 void require_embree(long version_major, long filter_functions) {
-    // Embree 3 and 4 share their names but not their calling conventions: where a host has loaded the other one for
-    // everybody, the calls land there and rays silently miss.
+    // Embree 3 and 4 share their names but not their calling conventions: where a host has loaded the other
+    // one for everybody, the calls land there and rays silently miss.
     if (version_major != RTC_VERSION_MAJOR) {
         fail("version " + std::to_string(version_major) +
              " answers in this process, but this was built for version " + std::to_string(RTC_VERSION_MAJOR) +
@@ -127,8 +127,10 @@ void require_embree(long version_major, long filter_functions) {
     }
     // Embree stores a filter that it was built not to call, and reports nothing.
     if (filter_functions == 0) {
-        fail("this build of it calls no filter functions, which leave meshes out of occlusion and find thickness; "
-             "build Embree with EMBREE_FILTER_FUNCTION=ON, its default");
+        fail(
+            "this build of it calls no filter functions, which leave meshes out of occlusion and find "
+            "thickness; "
+            "build Embree with EMBREE_FILTER_FUNCTION=ON, its default");
     }
 }
 

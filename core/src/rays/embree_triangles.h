@@ -16,25 +16,27 @@ struct TriangleRange {
     std::uint32_t end;
 };
 
-/// Told each hit of a ray, in no order: distance and triangle. Returns how far along the ray hits still matter; infinity
-/// for no limit. Must not throw.
+/// Told each hit of a ray, in no order: distance and triangle. Returns how far along the ray hits still
+/// matter; infinity for no limit. Must not throw.
 using HitVisitor = std::function<float(float distance, std::uint32_t triangle)>;
 
-/// Triangles in Embree 3 or 4. The only file that includes Embree. Single precision: coordinates should lie about
-/// the origin, at about the size of 1. All that is const may be called from many threads at once.
+/// Triangles in Embree 3 or 4. The only file that includes Embree. Single precision: coordinates should lie
+/// about the origin, at about the size of 1. All that is const may be called from many threads at once.
 class EmbreeTriangles {
   public:
-    /// Copies the triangles and builds the acceleration structure. No ray slips through between two that share an
-    /// edge. Throws as require_embree, and std::runtime_error where Embree fails.
+    /// Copies the triangles and builds the acceleration structure. No ray slips through between two that
+    /// share an edge. Throws as require_embree, and std::runtime_error where Embree fails.
     EmbreeTriangles(std::span<const glm::dvec3> points, std::span<const glm::uvec3> corners);
     ~EmbreeTriangles();
     EmbreeTriangles(const EmbreeTriangles&) = delete;
     EmbreeTriangles& operator=(const EmbreeTriangles&) = delete;
 
-    /// Visits all triangles that a ray crosses from a distance on, either side of them, in one traversal; those beyond
-    /// the limits that the visitor gives may be left out. A ray through an edge may hit both triangles there.
+    /// Visits all triangles that a ray crosses from a distance on, either side of them, in one traversal;
+    /// those beyond the limits that the visitor gives may be left out. A ray through an edge may hit both
+    /// triangles there.
     /// @param direction  unit length
-    void visit(const glm::dvec3& origin, const glm::dvec3& direction, float from, const HitVisitor& visitor) const;
+    void visit(const glm::dvec3& origin, const glm::dvec3& direction, float from,
+               const HitVisitor& visitor) const;
 
     /// Whether a triangle lies between two distances along a ray.
     /// @param direction  unit length
@@ -47,8 +49,8 @@ class EmbreeTriangles {
     std::unique_ptr<Handles> handles_;
 };
 
-/// Throws std::runtime_error that says what to do, unless the Embree that answers in this process can serve: another
-/// major version, or one without filter functions, gives wrong answers and no error.
+/// Throws std::runtime_error that says what to do, unless the Embree that answers in this process can serve:
+/// another major version, or one without filter functions, gives wrong answers and no error.
 /// @param version_major      its RTC_DEVICE_PROPERTY_VERSION_MAJOR
 /// @param filter_functions   its RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED; 0: none
 void require_embree(long version_major, long filter_functions);

@@ -27,7 +27,7 @@ glm::dvec3 on_cap(const glm::dvec3& axis, double sin_radius, double u, double v)
 }
 
 LightSample on_ball(const PreparedLight& light, const glm::dvec3& point, const glm::dvec3& normal, double u,
-                   double v) {
+                    double v) {
     const double center_distance = light.distance(point);
     const auto ball = light.ball_term(center_distance);
     const glm::dvec3 to_center = light.to_light(point);
@@ -56,7 +56,7 @@ LightSample on_area(const PreparedLight& light, const glm::dvec3& point, double 
     }
     const double scale = light.area_scale();
     const glm::dvec3 target = light.position() + light.frame()[0] * (x * area.half_x() * scale) +
-                             light.frame()[1] * (y * area.half_y() * scale);
+                              light.frame()[1] * (y * area.half_y() * scale);
     const glm::dvec3 offset = target - point;
     const double distance = length(offset);
     if (!(distance > 0.0)) return {-light.direction(), 0.0, 1.0};
@@ -81,7 +81,7 @@ bool is_sharp(const PreparedLight& light, const glm::dvec3& point) {
 }
 
 LightSample sample_light(const PreparedLight& light, const glm::dvec3& point, const glm::dvec3& normal,
-                       double u, double v) {
+                         double u, double v) {
     if (light.kind() == LightKind::sun) {
         return {on_cap(-light.direction(), light.sin_sun_radius(), u, v),
                 std::numeric_limits<double>::infinity(), 1.0};

@@ -14,9 +14,10 @@ struct LightSample {
 /// Whether a light is so small from a point that one ray stands for all.
 bool is_sharp(const PreparedLight& light, const glm::dvec3& point);
 
-/// A ray to one of the points that cover a light. Uniform (u, v) in the unit square give samples that, each weighted
-/// by emission times the receiver's cosine, stand for the light as PreparedLight has it: disks and balls uniformly in
-/// solid angle, flat lights uniformly in area. From within a ball they cover the hemisphere that is faced.
+/// A ray to one of the points that cover a light. Uniform (u, v) in the unit square give samples that, each
+/// weighted by emission times the receiver's cosine, stand for the light as PreparedLight has it: disks and
+/// balls uniformly in solid angle, flat lights uniformly in area. From within a ball they cover the
+/// hemisphere that is faced.
 /// @param normal  unit length; only looked at within a ball
 LightSample sample_light(const PreparedLight& light, const glm::dvec3& point, const glm::dvec3& normal,
                          double u, double v);

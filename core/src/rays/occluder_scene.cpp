@@ -108,8 +108,8 @@ bool OccluderScene::occluded(const glm::dvec3& point, const glm::dvec3& directio
     const Interval inside = inside_box(start, direction, bounds_);
     const double local_distance = distance / scale_;
     const double from = std::max({inside.from, end_tolerance * max_abs(start), min_end});
-    const double to = std::min(
-        inside.to, local_distance - end_tolerance * (local_distance + max_abs(start)) - min_end);
+    const double to =
+        std::min(inside.to, local_distance - end_tolerance * (local_distance + max_abs(start)) - min_end);
     if (!(from < to)) return false;
     // A ray from outside begins at the box: over a longer distance single precision would lose the box.
     const glm::dvec3 moved = start + inside.from * direction;

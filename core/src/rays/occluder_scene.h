@@ -18,8 +18,9 @@ class OccluderScene {
     /// The triangles of some meshes; throws std::invalid_argument on an index that is out of range.
     std::vector<TriangleRange> triangles_of(std::span<const std::size_t> meshes) const;
 
-    /// Whether a triangle lies between a point and what is at a distance along a direction. Surfaces that touch
-    /// either end do not count: the ray begins and ends 1e-6 of its coordinates (about the origin) short.
+    /// Whether a triangle lies between a point and what is at a distance along a direction. Surfaces that
+    /// touch either end do not count: the ray begins and ends 1e-6 of its coordinates (about the origin)
+    /// short.
     /// @param point      world, finite
     /// @param direction  unit length
     /// @param distance   0 or more, may be infinite

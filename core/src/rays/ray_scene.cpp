@@ -41,18 +41,19 @@ struct Crossing {
 /// A crossing that an earlier one stands for: a ray through an edge or a corner hits each triangle there.
 bool is_repeated(std::span<const Crossing> earlier, const Crossing& crossing, const WeldedMesh& mesh) {
     return std::any_of(earlier.begin(), earlier.end(), [&](const Crossing& other) {
-        return other.leaves == crossing.leaves &&
-               share_corner(mesh.triangles()[other.triangle].corners, mesh.triangles()[crossing.triangle].corners);
+        return other.leaves == crossing.leaves && share_corner(mesh.triangles()[other.triangle].corners,
+                                                               mesh.triangles()[crossing.triangle].corners);
     });
 }
 
-/// The first crossing at which the ray has left as many bodies as it has entered, the one it starts in included.
+/// The first crossing at which the ray has left as many bodies as it has entered, the one it starts in
+/// included.
 /// @param crossings  ascending by distance
 std::optional<std::uint32_t> first_way_out(std::span<const Crossing> crossings, const WeldedMesh& mesh) {
     int bodies = 1;  // a ray that begins outside never reaches 0
     while (!crossings.empty()) {
-        // What lies closer together than a hit is exact has no order: bodies that touch are one, so the ray enters
-        // the next before it leaves the last.
+        // What lies closer together than a hit is exact has no order: bodies that touch are one, so the ray
+        // enters the next before it leaves the last.
         const float end = crossings.front().distance + hit_tolerance;
         std::size_t count = 1;
         while (count < crossings.size() && crossings[count].distance <= end) ++count;
@@ -96,7 +97,8 @@ std::optional<std::uint32_t> RayScene::exit_triangle(std::uint32_t welded, const
     float limit = unlimited;  // what is nearer has been seen
     bool hopeful = true;
     const HitVisitor visitor = [&](float distance, std::uint32_t triangle) {
-        // A ray meets the triangles of the vertex it starts from nowhere else: such a hit is a rounding error.
+        // A ray meets the triangles of the vertex it starts from nowhere else: such a hit is a rounding
+        // error.
         if (std::binary_search(own.begin(), own.end(), triangle)) return unlimited;
         if (!dark.empty() && dark[triangle] != 0) return unlimited;
         const double cosine = glm::dot(direction, mesh_.triangles()[triangle].unit_normal);
@@ -108,7 +110,8 @@ std::optional<std::uint32_t> RayScene::exit_triangle(std::uint32_t welded, const
         limit = std::min(limit, end);
         return end;
     };
-    // Mostly the first surface is the way out. Where the ray enters another body before, one look to its end tells.
+    // Mostly the first surface is the way out. Where the ray enters another body before, one look to its end
+    // tells.
     triangles_.visit(mesh_.positions()[welded], direction, hit_tolerance, visitor);
     if (first_entry <= limit && limit < unlimited) {
         count = 0;

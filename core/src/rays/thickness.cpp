@@ -16,9 +16,10 @@ namespace {
 
 constexpr int max_rays = 65536;
 constexpr std::size_t rays_per_block = 8192;  // a few milliseconds: Cancel waits for a block
-constexpr double max_cone_half_angle = 1.5;   // radians; towards pi/2 rays run along the surface they start from
-constexpr double min_diameter = 1e-12;        // edges of the unit box: far below what single precision can resolve
-constexpr int sky_rays = 64;                  // resolution 1/64, for comparison with a few per cent
+constexpr double max_cone_half_angle =
+    1.5;                                // radians; towards pi/2 rays run along the surface they start from
+constexpr double min_diameter = 1e-12;  // edges of the unit box: far below what single precision can resolve
+constexpr int sky_rays = 64;            // resolution 1/64, for comparison with a few per cent
 
 void validate(const ThicknessOptions& options) {
     require_positive("unit_mm", options.unit_mm);
@@ -86,12 +87,15 @@ double measure(const WeldedMesh& mesh, const RayScene& scene, std::span<const st
         const WeldedTriangle& triangle = mesh.triangles()[*exit];
         const double distance = triangle.plane - glm::dot(triangle.unit_normal, mesh.positions()[welded]);
         const double facing = 1.0 + glm::dot(inward, triangle.unit_normal);
-        // 0 where rounding puts the vertex behind the plane; the bound where the plane faces straight back at it.
-        const double diameter = distance <= 0 ? 0.0 : std::min(2.0 * distance / std::max(facing, 1e-9), max_diameter);
-        samples.push_back({1.0 / std::max(diameter, min_diameter), glm::dot(direction, triangle.unit_normal)});
+        // 0 where rounding puts the vertex behind the plane; the bound where the plane faces straight back at
+        // it.
+        const double diameter =
+            distance <= 0 ? 0.0 : std::min(2.0 * distance / std::max(facing, 1e-9), max_diameter);
+        samples.push_back(
+            {1.0 / std::max(diameter, min_diameter), glm::dot(direction, triangle.unit_normal)});
     }
-    // Of inverses, so that where the cone sees a thin and a thick side at once (the rim of an ear) the thin one,
-    // through which light would come, decides.
+    // Of inverses, so that where the cone sees a thin and a thick side at once (the rim of an ear) the thin
+    // one, through which light would come, decides.
     return samples.empty() ? max_diameter : 1.0 / interquartile_mean(samples);
 }
 
@@ -137,7 +141,8 @@ std::vector<double> thickness(const MeshView& mesh, const ThicknessOptions& opti
             measure_all(body, scene, dark, options, {progress, dark_end, 1.0, body.positions().size()});
         // No welded value is above the box's diagonal; the minimum takes back what rounding may have added.
         for (std::size_t i = 0; i < result.size(); ++i)
-            result[i] = std::min(welded[body.welded_of()[i]] * body.scale(), body.diagonal()) * options.unit_mm;
+            result[i] =
+                std::min(welded[body.welded_of()[i]] * body.scale(), body.diagonal()) * options.unit_mm;
     }
     if (progress && !progress(1.0)) throw ThicknessCancelled();
     return result;

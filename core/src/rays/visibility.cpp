@@ -24,9 +24,9 @@ double fractional_part(double value) {
     return value - std::floor(value);
 }
 
-/// Points of the unit square: the rank-1 lattice of the golden ratio, shifted by the point's own member of the R2
-/// sequence (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018), whose base is the real
-/// root of x^3 = x + 1.
+/// Points of the unit square: the rank-1 lattice of the golden ratio, shifted by the point's own member of
+/// the R2 sequence (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018), whose base
+/// is the real root of x^3 = x + 1.
 struct ShiftedLattice {
     double shift_u, shift_v;
     int count;

@@ -1,6 +1,5 @@
-#include <skinglow/mesh.h>
-
 #include <gtest/gtest.h>
+#include <skinglow/mesh.h>
 
 #include <array>
 #include <limits>
@@ -14,7 +13,8 @@ namespace {
 
 const std::vector<glm::dvec3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 9}};
 
-std::string refusal(std::vector<glm::dvec3> vertices, std::vector<glm::uvec3> triangles, const char* prefix = "") {
+std::string refusal(std::vector<glm::dvec3> vertices, std::vector<glm::uvec3> triangles,
+                    const char* prefix = "") {
     try {
         TriangleMesh(std::move(vertices), std::move(triangles), prefix);
     } catch (const std::invalid_argument& error) {
