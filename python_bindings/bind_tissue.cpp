@@ -10,7 +10,6 @@
 #include "bind_incidence.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
-#include "radiometry/angular_weight.h"
 
 namespace py = pybind11;
 using namespace py::literals;

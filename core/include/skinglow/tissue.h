@@ -1,5 +1,6 @@
 #pragma once
 
+#include <skinglow/angular_weight.h>
 #include <skinglow/slab.h>
 
 #include <array>
@@ -14,8 +15,6 @@
 /// const std::vector<double> red = skinglow::transmittance(skin, std::array{1.0, 3.0}, std::array{650.0});
 /// @endcode
 namespace skinglow {
-
-class AngularWeight;
 
 /// A piece of skin. Ranges: tissue_parameters().
 struct Tissue {

@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 namespace skinglow::detail {
 namespace {
@@ -28,14 +30,12 @@ Quadrature rule_of_jacobi_matrix(const Eigen::VectorXd& diagonal, const Eigen::V
     return rule;
 }
 
-}  // namespace
-
-Quadrature gauss_rule(std::size_t count) {
+Quadrature make_gauss_rule(std::size_t count) {
     return rule_of_jacobi_matrix(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count)),
                                  legendre_recurrence(count));
 }
 
-Quadrature radau_rule(std::size_t count, FixedNode end) {
+Quadrature make_radau_rule(std::size_t count, FixedNode end) {
     if (count == 1) return {{end == FixedNode::at_one ? 1.0 : 0.0}, {1.0}};
     // Golub (1973, SIAM Review 15:318): the last diagonal entry is chosen so that the end is an eigenvalue.
     const Eigen::VectorXd off = legendre_recurrence(count);
@@ -52,6 +52,36 @@ Quadrature radau_rule(std::size_t count, FixedNode end) {
         mirrored.weight.push_back(rule.weight[i]);
     }
     return mirrored;
+}
+
+// The rules made so far, by number of nodes.
+class RuleCache {
+  public:
+    template <typename Make>
+    const Quadrature& rule(std::size_t count, const Make& make) {
+        const std::scoped_lock lock(mutex_);
+        const auto found = rules_.find(count);
+        return found != rules_.end() ? found->second : rules_.emplace(count, make()).first->second;
+    }
+
+  private:
+    std::mutex mutex_;
+    std::map<std::size_t, Quadrature> rules_;  // which leaves its entries where they are
+};
+
+}  // namespace
+
+const Quadrature& gauss_rule(std::size_t count) {
+    static RuleCache cache;
+    return cache.rule(count, [&] { return make_gauss_rule(count); });
+}
+
+const Quadrature& radau_rule(std::size_t count, FixedNode end) {
+    static RuleCache at_zero;
+    static RuleCache at_one;
+    return (end == FixedNode::at_zero ? at_zero : at_one).rule(count, [&] {
+        return make_radau_rule(count, end);
+    });
 }
 
 }  // namespace skinglow::detail

@@ -13,17 +13,17 @@ struct Quadrature {
     std::vector<double> weight;
 };
 
-/// Gauss-Legendre rule of `count` nodes, exact to degree 2 count - 1.
-Quadrature gauss_rule(std::size_t count);
+/// Gauss-Legendre rule of `count` nodes, exact to degree 2 count - 1. Each rule is computed once and kept.
+const Quadrature& gauss_rule(std::size_t count);
 
 /// Gauss-Radau rule of `count` nodes, one of them at the end given; exact to degree 2 count - 2.
 enum class FixedNode { at_zero, at_one };
-Quadrature radau_rule(std::size_t count, FixedNode end);
+const Quadrature& radau_rule(std::size_t count, FixedNode end);
 
-/// The Gauss-Legendre rule of a fixed number of nodes, made once.
+/// The Gauss-Legendre rule of a fixed number of nodes, found without a search.
 template <std::size_t Count>
 const Quadrature& gauss_legendre() {
-    static const Quadrature rule = gauss_rule(Count);
+    static const Quadrature& rule = gauss_rule(Count);
     return rule;
 }
 

@@ -12,6 +12,8 @@ AngularBasis::AngularBasis(Eigen::VectorXd cosine_, const Eigen::VectorXd& weigh
     odd.resize(n, n);
     recurrence.resize(2 * n - 1);
     even.col(0) = (weight / weight_sum).cwiseSqrt();
+    Eigen::VectorXd next(n);
+    Eigen::VectorXd overlap(n);
     // The three-term recurrence alone loses orthogonality at high degree: each polynomial is orthogonalized
     // against all before it of its own parity, twice ("twice is enough", Giraud et al. 2005, Numer Math
     // 101:87).
@@ -20,9 +22,10 @@ AngularBasis::AngularBasis(Eigen::VectorXd cosine_, const Eigen::VectorXd& weigh
         const bool is_odd = degree % 2 == 1;
         Eigen::MatrixXd& own = is_odd ? odd : even;
         const Eigen::MatrixXd& other = is_odd ? even : odd;
-        Eigen::VectorXd next = cosine.cwiseProduct(other.col(is_odd ? i : i - 1));
+        next = cosine.cwiseProduct(other.col(is_odd ? i : i - 1));
         for (int repeat = 0; repeat < 2; ++repeat) {
-            next -= own.leftCols(i) * (own.leftCols(i).transpose() * next);
+            overlap.head(i).noalias() = own.leftCols(i).transpose() * next;
+            next.noalias() -= own.leftCols(i) * overlap.head(i);
         }
         const double norm = next.norm();
         recurrence[degree - 1] = norm;

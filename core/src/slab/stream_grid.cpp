@@ -134,11 +134,11 @@ void StreamGrid::add_interval(double n_low, double n_high, int count, bool beam_
 }
 
 int StreamGrid::count(double n) const {
-    int count = 0;
-    for (const Stream& stream : streams_) {
-        if (stream.interval_index <= n * (1 + same_index)) ++count;
-    }
-    return count;
+    const auto propagates = [&](const Stream& stream) {
+        return stream.interval_index <= n * (1 + same_index);
+    };
+    return static_cast<int>(std::partition_point(streams_.begin(), streams_.end(), propagates) -
+                            streams_.begin());
 }
 
 double StreamGrid::cosine(int stream, double n) const {
