@@ -170,7 +170,8 @@ class Walk(SceneEdits):
                  self.new_light, self.duplicate_light, self.delete_light, self.rename_light, self.parent,
                  self.constrain, self.key, self.drive, self.exclude, self.hide_collection, self.close_eye,
                  self.instance, self.move_empty, self.delete_empty, self.frame, self.frame, self.add_skin,
-                 self.duplicate_skin, self.delete_skin, self.move_skin, self.mode, self.hide_light_in_renders, self.push_undo, self.undo)  # fmt: skip
+                 self.duplicate_skin, self.delete_skin, self.move_skin, self.mode, self.hide_light_in_renders,
+                 self.push_undo, self.undo)  # fmt: skip
         seldom = (self.save_and_load, self.render, self.remove_skin, self.table_size, self.change_material, self.append,
                   self.link_library, self.override, self.move_override, self.move_override, self.add_view_layer,
                   self.switch_view_layer, self.switch_view_layer, self.switch_scene, self.engine,
