@@ -75,7 +75,7 @@ class Occluders:
         count = self._rays.DEFAULT_SAMPLES if samples is None else samples
         return VisibleFraction(*self._scene.visible_fraction(lights, points, normals, count, list(excluded), threads))
 
-    def visible_share(self, *arguments: Any, **keywords: Any) -> VisibleFraction:
+    def visible_share(self, *arguments: Any, **keywords: Any) -> VisibleFraction:  # noqa: ANN401
         """The former name of visible_fraction."""
         warnings.warn("Occluders.visible_share is now visible_fraction", DeprecationWarning, stacklevel=2)
         return self.visible_fraction(*arguments, **keywords)

@@ -37,7 +37,7 @@ def renamed_keywords(**new_names: str) -> Callable[[Callable[..., Any]], Any]:
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
         @functools.wraps(function)
-        def call(*arguments: Any, **keywords: Any) -> Any:
+        def call(*arguments: Any, **keywords: Any) -> Any:  # noqa: ANN401
             for old in new_names.keys() & keywords.keys():
                 new = new_names[old]
                 if new in keywords:

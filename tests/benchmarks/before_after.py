@@ -159,9 +159,10 @@ class Cases:
 
     def culling(self):
         lights = self.lights("POINT", "SPOT", "AREA", count=2_000)
+        prepared = self.named("PreparedRig", "LightTree")
 
         def cull():
-            return self.sg.LightTree(lights).cull((-0.1, -0.1, -0.1), (0.1, 0.1, 0.1), 1e-2)["bound"]
+            return prepared(lights).cull((-0.1, -0.1, -0.1), (0.1, 0.1, 0.1), 1e-2)["bound"]
 
         return cull
 
