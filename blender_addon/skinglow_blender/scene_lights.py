@@ -121,6 +121,11 @@ def _unlit_reason(obj: bpy.types.Object, kind: str, direction: tuple[float, floa
         return "its ray visibility excludes diffuse rays"
     if kind == "AREA" and getattr(getattr(obj.data, "cycles", None), "is_portal", False):
         return "it is a portal, which emits no light"
+    if kind == "AREA" and 0.0 in (
+        obj.data.size,
+        obj.data.size_y if obj.data.shape in ("RECTANGLE", "ELLIPSE") else 1.0,
+    ):
+        return "it has a size of 0, of which Cycles renders nothing"
     if kind != "POINT" and direction == (0.0, 0.0, 0.0):
         return "its scale is 0, so it has no direction"
     return ""

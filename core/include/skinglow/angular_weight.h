@@ -7,14 +7,15 @@
 
 namespace skinglow {
 
-/// w(mu) = c0 + c1 mu + c2 mu^2 + c3 mu^3 for mu in [0, 1], each channel: for materials, which have no
+/// w(mu) = max(0, c0 + c1 mu + c2 mu^2 + c3 mu^3) for mu in [0, 1], each channel: for materials, which have no
 /// tables.
 using AngularCubic = std::array<glm::dvec3, 4>;
 
 /// Every angle enters alike.
 constexpr AngularCubic lambert_cubic{glm::dvec3(1.0), glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
 
-/// The cubic at a cosine, clamped to [0, 1].
+/// The cubic at a cosine, clamped to [0, 1]; never below 0, to which shaders clamp it too: the least-squares cubic of a
+/// steep weight may swing below, and light would be taken away.
 glm::dvec3 evaluate(const AngularCubic& cubic, double mu);
 
 /// How much more or less of the light that strikes the far side at an angle comes through than of light from

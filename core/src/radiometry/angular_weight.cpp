@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <numbers>
 #include <string>
 
@@ -91,7 +92,7 @@ glm::dvec3 AngularWeight::at(double mu) const {
 
 glm::dvec3 evaluate(const AngularCubic& cubic, double mu) {
     const double x = std::clamp(mu, 0.0, 1.0);
-    return cubic[0] + x * (cubic[1] + x * (cubic[2] + x * cubic[3]));
+    return glm::max(cubic[0] + x * (cubic[1] + x * (cubic[2] + x * cubic[3])), 0.0);
 }
 
 AngularCubic AngularWeight::cubic() const {

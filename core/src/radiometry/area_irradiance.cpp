@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <vector>
@@ -88,8 +89,22 @@ class RimIntegrand {
         return glm::distance(receiver_.point,
                              glm::dvec3(half_x_ * std::cos(angle), half_y_ * std::sin(angle), 0.0));
     }
-    /// Eccentric angle of the rim near the receiver.
-    double near_angle() const { return std::atan2(receiver_.point.y * half_x_, receiver_.point.x * half_y_); }
+    /// Eccentric angle of the rim point nearest to the receiver, by circles of curvature.
+    double nearest_angle() const {
+        const glm::dvec2 half(half_x_, half_y_);
+        const glm::dvec2 foot = glm::abs(glm::dvec2(receiver_.point));
+        const double focal_sq = half_x_ * half_x_ - half_y_ * half_y_;
+        glm::dvec2 t(std::numbers::sqrt2 / 2);  // cosine and sine of the angle, in the first quadrant
+        for (int step = 0; step < 6; ++step) {
+            const glm::dvec2 center = glm::dvec2(focal_sq, -focal_sq) * t * t * t / half;
+            const double radius = glm::distance(half * t, center);
+            const double distance = std::max(glm::distance(foot, center), 1e-300);
+            const glm::dvec2 next = glm::max(((foot - center) * (radius / distance) + center) / half, 0.0);
+            if (!(glm::length(next) > 0.0)) break;
+            t = glm::normalize(next);
+        }
+        return std::atan2(std::copysign(t.y, receiver_.point.y), std::copysign(t.x, receiver_.point.x));
+    }
 
   private:
     double half_x_;
@@ -102,7 +117,7 @@ class RimIntegrand {
 /// narrower than its piece; then halved where they still disagree.
 double integrate_rim(const RimIntegrand& rim, double from, double to, double finest, double tolerance) {
     std::vector<double> cuts = {from, to};
-    const double near = rim.near_angle();
+    const double near = rim.nearest_angle();
     double step = std::clamp(finest, 1e-12, pi / 4);
     while (step < pi) {
         for (const double turn : {-2 * pi, 0.0, 2 * pi}) {
@@ -181,6 +196,7 @@ double AreaEmitter::irradiance(const glm::dvec3& point, const glm::dvec3& normal
                                         std::max(0.0, std::abs(point.y) - half_y_));
         if (aside >= tan_half_ * point.z) return 0.0;  // exactly, where the integral would leave its rounding
     }
+    if (is_thin()) return strip_irradiance(half_x_, half_y_, point, normal, tolerance);
     const double value = shape_ == AreaShape::rectangle ? rectangle_irradiance(point, normal, tolerance)
                                                         : ellipse_irradiance(point, normal, tolerance);
     return std::max(0.0, value);
@@ -222,14 +238,19 @@ double AreaEmitter::ellipse_irradiance(const glm::dvec3& point, const glm::dvec3
     const double absolute = 0.3 * tolerance * scale * spread_norm_;
     const SpreadIntegral spread(tan_half_);
     const RimIntegrand rim(half_x_, half_y_, receiver, spreads_ ? &spread : nullptr);
-    const double nearest = rim.distance_to(rim.near_angle());
-    const double feature = spreads_ ? std::min(nearest, tan_half_ * point.z) : nearest;
     const double widest = std::max(half_x_, half_y_);
     const bool whole = level >= swing;
     double sum = 0;
-    // Two coarse rules may agree by missing a feature together: only where there is none.
-    if (whole && feature > 0.5 * widest && integrate_whole_rim(rim, absolute, sum)) return sum / spread_norm_;
-
+    // Two coarse rules may agree by missing a feature together: only where there is none. The distance to the box
+    // around the ellipse is a lower bound of that to its rim.
+    const double outside =
+        std::hypot(std::max(0.0, std::abs(point.x) - half_x_), std::max(0.0, std::abs(point.y) - half_y_));
+    const double beam = spreads_ ? tan_half_ * point.z : widest;
+    if (whole && std::min(std::hypot(outside, point.z), beam) > 0.5 * widest &&
+        integrate_whole_rim(rim, absolute, sum)) {
+        return sum / spread_norm_;
+    }
+    const double feature = std::min(rim.distance_to(rim.nearest_angle()), beam);
     const double finest = 0.25 * feature / widest;
     if (whole) return integrate_rim(rim, -pi, pi, finest, absolute) / spread_norm_;
     const double middle = std::atan2(swing_y, swing_x);

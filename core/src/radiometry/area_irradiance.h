@@ -32,12 +32,17 @@ class AreaEmitter {
     AreaShape shape() const { return shape_; }
     double half_x() const { return half_x_; }
     double half_y() const { return half_y_; }
+    /// Whether it is so narrow that the sums around its rim would cancel: it is integrated strip by strip.
+    bool is_thin() const;
     bool spreads() const { return spreads_; }
     double half_spread() const { return half_spread_; }
 
   private:
     double rectangle_irradiance(const glm::dvec3& point, const glm::dvec3& normal, double tolerance) const;
     double ellipse_irradiance(const glm::dvec3& point, const glm::dvec3& normal, double tolerance) const;
+
+    double strip_irradiance(double half_x, double half_y, const glm::dvec3& point, const glm::dvec3& normal,
+                            double tolerance) const;
 
     AreaShape shape_;
     double half_x_;

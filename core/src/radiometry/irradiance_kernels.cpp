@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -246,22 +245,17 @@ HWY_INLINE Irradiance irradiance_of(const KernelLight& light, const Receivers& r
 
 using Lanes = std::array<double, HWY_MAX_BYTES / sizeof(double)>;
 
-/// Replaces the values that have to be asked for one by one, and the cosines by NaN.
-HWY_NOINLINE void ask(const IrradianceSum& sum, const KernelLight& light, const glm::dvec3* points,
-                      const glm::dvec3* unit_normals, std::size_t count, Irradiance& e) {
+/// Adds a light point by point, where angles count or one of the points is special.
+HWY_NOINLINE void add_lanes(const IrradianceSum& sum, const KernelLight& light, const glm::dvec3* points,
+                            const glm::dvec3* unit_normals, std::size_t count, const Irradiance& e,
+                            glm::dvec3* sums) {
     Lanes value;
     Lanes cosine;
-    std::array<std::uint8_t, 8> bits{};
-    hn::StoreU(e.value, d, value.data());
-    hn::StoreU(e.cosine, d, cosine.data());
-    hn::StoreMaskBits(d, e.special, bits.data());
-    for (std::size_t i = 0; i < count; ++i) {
-        if ((bits[0] >> i & 1) == 0) continue;
-        value[i] = sum.irradiance(light, points[i], unit_normals[i]);
-        cosine[i] = std::numeric_limits<double>::quiet_NaN();
-    }
-    e.value = hn::LoadU(d, value.data());
-    e.cosine = hn::LoadU(d, cosine.data());
+    const V unknown = set(std::numeric_limits<double>::quiet_NaN());
+    hn::StoreU(hn::IfThenElse(e.special, unknown, e.value), d, value.data());
+    hn::StoreU(hn::IfThenElse(e.special, unknown, e.cosine), d, cosine.data());
+    for (std::size_t i = 0; i < count; ++i)
+        sum.add_one(light, points[i], unit_normals[i], value[i], cosine[i], sums[i]);
 }
 
 /// `count` points, at most as many as a vector has lanes; all arrays are as long as a vector.
@@ -290,21 +284,20 @@ HWY_INLINE void add_vector(const IrradianceSum& sum, std::span<const KernelLight
     hn::StoreInterleaved3(r.normal.x, r.normal.y, r.normal.z, d, &unit_normals[0].x);
 
     V3 total{zero(), zero(), zero()};
-    for (const KernelLight& light : lights) {
-        Irradiance e = irradiance_of(light, r);
-        if (!hn::AllFalse(d, e.special)) ask(sum, light, points, unit_normals.data(), count, e);
-        if (sum.has_angular_weight()) {
-            Lanes value;
-            Lanes cosine;
-            hn::StoreU(e.value, d, value.data());
-            hn::StoreU(e.cosine, d, cosine.data());
-            for (std::size_t i = 0; i < count; ++i)
-                sum.add_weighted(light, points[i], unit_normals[i], value[i], cosine[i], sums[i]);
-            continue;
+    const KernelLight* light = lights.data();
+    const KernelLight* const end = light + lights.size();
+    for (; light != end; ++light) {
+        Irradiance e{zero(), zero(), nowhere()};
+        // A loop of its own, without calls, so that the totals stay in registers.
+        for (; light != end; ++light) {
+            e = irradiance_of(*light, r);
+            if (sum.has_angular_weight() || !hn::AllFalse(d, e.special)) break;
+            total.x = hn::MulAdd(set(light->strength.r), e.value, total.x);
+            total.y = hn::MulAdd(set(light->strength.g), e.value, total.y);
+            total.z = hn::MulAdd(set(light->strength.b), e.value, total.z);
         }
-        total.x = hn::MulAdd(set(light.strength.r), e.value, total.x);
-        total.y = hn::MulAdd(set(light.strength.g), e.value, total.y);
-        total.z = hn::MulAdd(set(light.strength.b), e.value, total.z);
+        if (light == end) break;
+        add_lanes(sum, *light, points, unit_normals.data(), count, e, sums);
     }
     V3 before;
     hn::LoadInterleaved3(d, &sums->x, before.x, before.y, before.z);

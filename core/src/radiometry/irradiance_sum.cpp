@@ -49,7 +49,7 @@ Kernel kernel_of(const PreparedLight& light) {
     if (light.kind() == LightKind::point) return Kernel::point;
     if (light.kind() == LightKind::spot) return Kernel::spot;
     const bool has_kernel = light.area()->shape() == AreaShape::rectangle && !light.area()->spreads() &&
-                            light.area_scale() >= 0.5e-9;
+                            !light.area()->is_thin() && light.area_scale() >= 0.5e-9;
     return has_kernel ? Kernel::rectangle : Kernel::none;
 }
 
@@ -76,19 +76,18 @@ IrradianceSum::IrradianceSum(std::span<const WeightedLight> lights, const Angula
     }
 }
 
-double IrradianceSum::irradiance(const KernelLight& light, const glm::dvec3& point,
-                                 const glm::dvec3& unit_normal) const {
-    return unit_normal == glm::dvec3(0.0) ? 0.0 : light.light->irradiance(point, unit_normal, tolerance_);
-}
-
-void IrradianceSum::add_weighted(const KernelLight& light, const glm::dvec3& point,
-                                 const glm::dvec3& unit_normal, double value, double cosine,
-                                 glm::dvec3& sum) const {
+void IrradianceSum::add_one(const KernelLight& light, const glm::dvec3& point, const glm::dvec3& unit_normal,
+                            double value, double cosine, glm::dvec3& sum) const {
+    if (unit_normal == glm::dvec3(0.0)) return;
+    if (std::isnan(value)) value = light.light->irradiance(point, unit_normal, tolerance_);
     if (value == 0.0) return;
-    const auto& area_weight = area_weights_[static_cast<std::size_t>(&light - lights_.data())];
-    if (!area_weight && std::isnan(cosine)) cosine = glm::dot(light.light->to_light(point), unit_normal);
-    sum += light.strength * value *
-           (area_weight ? area_weight->mean(point, unit_normal) : angular_weight_->at(cosine));
+    glm::dvec3 weighted = light.strength * value;
+    if (has_angular_weight()) {
+        const auto& area_weight = area_weights_[static_cast<std::size_t>(&light - lights_.data())];
+        if (!area_weight && std::isnan(cosine)) cosine = glm::dot(light.light->to_light(point), unit_normal);
+        weighted *= area_weight ? area_weight->mean(point, unit_normal) : angular_weight_->at(cosine);
+    }
+    sum += weighted;
 }
 
 void IrradianceSum::add_one_by_one(std::span<const KernelLight> lights, const glm::dvec3& point,
@@ -96,15 +95,8 @@ void IrradianceSum::add_one_by_one(std::span<const KernelLight> lights, const gl
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     if (!is_finite(point) || !is_finite(normal)) sum = glm::dvec3(nan);
     if (normal == glm::dvec3(0.0) || !is_finite(sum)) return;
-    const glm::dvec3 n = unit(normal);
-    for (const KernelLight& light : lights) {
-        const double value = irradiance(light, point, n);
-        if (has_angular_weight()) {
-            add_weighted(light, point, n, value, nan, sum);
-        } else {
-            sum += light.strength * value;
-        }
-    }
+    const glm::dvec3 unit_normal = unit(normal);
+    for (const KernelLight& light : lights) add_one(light, point, unit_normal, nan, nan, sum);
 }
 
 }  // namespace skinglow::detail

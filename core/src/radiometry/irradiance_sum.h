@@ -60,12 +60,12 @@ class IrradianceSum {
     void add(std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals,
              std::span<glm::dvec3> sums) const;
 
-    /// For the kernels: one light at one point, per unit of power; 0 for a normal of 0.
-    double irradiance(const KernelLight& light, const glm::dvec3& point, const glm::dvec3& unit_normal) const;
-    /// For the kernels: adds a light's value, weighted by the angles it enters at.
+    /// For the kernels: adds one light at one point.
+    /// @param unit_normal  0 receives nothing
+    /// @param value   irradiance per unit of power; NaN: not known
     /// @param cosine  between the normal and the light's center; NaN: not known
-    void add_weighted(const KernelLight& light, const glm::dvec3& point, const glm::dvec3& unit_normal,
-                      double value, double cosine, glm::dvec3& sum) const;
+    void add_one(const KernelLight& light, const glm::dvec3& point, const glm::dvec3& unit_normal,
+                 double value, double cosine, glm::dvec3& sum) const;
     /// For the kernels: all lights at a point of any size.
     void add_one_by_one(std::span<const KernelLight> lights, const glm::dvec3& point,
                         const glm::dvec3& normal, glm::dvec3& sum) const;

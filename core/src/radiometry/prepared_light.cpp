@@ -13,9 +13,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A lamp much wider than high is as good as this wide: what it gives depends on the ratio by the square of
-/// it.
-constexpr double thinnest = 1e-4;
+/// A light of no height is as good as this high, in units of its width: a line.
+constexpr double thinnest = 1e-8;
 /// A lamp this small against its distance is a point with a cosine: the error is of the order of the square.
 constexpr double point_like = 1e-4;
 /// A patch of this angular radius sees one value of a spot's profile.

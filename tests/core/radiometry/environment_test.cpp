@@ -1,6 +1,5 @@
-#include <skinglow/environment.h>
-
 #include <gtest/gtest.h>
+#include <skinglow/environment.h>
 
 #include <cmath>
 #include <functional>
