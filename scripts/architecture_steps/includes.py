@@ -50,10 +50,11 @@ def included(path: Path) -> Iterator[tuple[str, bool]]:
 
 
 def arrows(core: Path) -> Counter[tuple[str, str]]:
-    """How often the files of one folder include headers of another: {(from, to): count}."""
+    """How often files of one folder, its public headers among them, include headers of another: {(from, to): count}."""
     found: Counter[tuple[str, str]] = Counter()
     for floor in floors(core):
-        for path in sources(core / "src" / floor):
+        headers = [core / "include" / "skinglow" / name for name in PUBLIC if PUBLIC[name] == floor]
+        for path in [*sources(core / "src" / floor), *filter(Path.exists, headers)]:
             for name, is_public in included(path):
                 to = PUBLIC[name] if is_public else name.split("/")[0] if "/" in name else floor
                 if to != floor:
