@@ -1,5 +1,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <skinglow/angular_weight.h>
 #include <skinglow/lut.h>
 #include <skinglow/spectrum.h>
 #include <skinglow/tissue.h>
