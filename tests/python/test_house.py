@@ -65,3 +65,8 @@ def test_no_file_is_long() -> None:
     assert len(files) > 100
     long = {path for path in files if path not in LONG and len(path.read_text().splitlines()) > LINES}
     assert not {str(path.relative_to(ROOT)) for path in long}
+
+
+def test_picture_of_the_architecture_is_up_to_date() -> None:
+    picture = (ROOT / "docs" / "images" / "architecture.svg").read_text()
+    assert includes.arrows_text(CORE).replace(">", "&gt;") in picture, "run scripts/architecture"
