@@ -1,5 +1,5 @@
 # Sourced by scripts/package: a static Highway for the portable wheels, in build/portable/highway: the version that the ordinary
-# build links, with what its dynamic dispatch needs and no more.
+# build links, with what skinglow uses of it and no more.
 highway_version=1.0.3
 highway_source=highway_$highway_version.orig.tar.gz
 highway_sha256=566fc77315878473d9a6bd815f7de78c73734acdcb745c3dde8579560ac5440e
