@@ -35,7 +35,7 @@ REFUSALS = {
     "cancelled": ("ThicknessCancelled", ""),
     "mesh": ("ValueError", "meshes[1]"),
     "samples": ("ValueError", "samples"),
-    "no light": ("TypeError", "visible_share"),
+    "no light": ("TypeError", "Light"),
 }
 
 
