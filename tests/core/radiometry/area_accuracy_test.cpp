@@ -94,11 +94,11 @@ class Cubature {
                                                    glm::dvec2(u, v + half), glm::dvec2(u + half, v + half)};
         std::array<double, 4> part{};
         double sum = 0;
-        for (std::size_t i = 0; i < 2; ++i) sum += part[i] = rule(quarter[i].x, quarter[i].y, half);
+        for (std::size_t i = 0; i < 4; ++i) sum += part[i] = rule(quarter[i].x, quarter[i].y, half);
         const bool agrees = std::abs(sum - whole) <= std::max(allowed_, 1e-10 * std::abs(whole));
         if (depth > 26 || (depth > 3 && agrees && !may_hide_a_peak(u, size))) return sum;
         sum = 0;
-        for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t i = 0; i < 4; ++i)
             sum += refine(quarter[i].x, quarter[i].y, half, part[i], depth + 1);
         return sum;
     }
@@ -165,7 +165,8 @@ TEST(AreaIrradiance, OfNearlyNoWidthIsALineAsInCycles) {
         light.spread = spread;
         light.size_y = 1e-6;
         const double thin = PreparedLight(light).irradiance({0, 0, 0}, {0, 0, 1}, 1e-7) * light.power;
-        EXPECT_NEAR(thin, spread == pi ? 25.2198 : 91.5905, 5e-2);
+        const double measured = spread == pi ? 25.2198 : 91.5905;
+        EXPECT_NEAR(thin, measured, 1e-3 * measured);  // which carries the noise of a render
         light.size_y = 1e-9;
         EXPECT_NEAR(PreparedLight(light).irradiance({0, 0, 0}, {0, 0, 1}, 1e-7) * light.power, thin,
                     1e-9 * thin);
