@@ -105,7 +105,7 @@ std::filesystem::path make_folder(const std::string& name) {
     return name;
 }
 
-void run(const Options& options) {
+void run(Options& options) {
     const LightRig rig = options.rig.read();
     const TriangleMesh mesh = turn_upright(options.mesh.read(), options.up);
     const std::filesystem::path folder = make_folder(options.folder);

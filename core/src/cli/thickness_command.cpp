@@ -14,7 +14,7 @@ struct Options {
     std::string output;
 };
 
-void run(const Options& options) {
+void run(Options& options) {
     const TriangleMesh mesh = options.mesh.read();
     std::vector<double> values = options.mesh.measure(mesh);
     write_thickness(options.output, mesh, values, options.mesh.unit_mm());
