@@ -161,8 +161,8 @@ TEST(GltfFile, StripsAndFans) {
         EXPECT_EQ(mesh.triangles().size(), 2U);
         glm::dvec3 sum(0.0);
         for (const glm::uvec3& t : mesh.triangles()) {
-            sum +=
-                glm::cross(mesh.vertices()[t.y] - mesh.vertices()[t.x], mesh.vertices()[t.z] - mesh.vertices()[t.x]);
+            sum += glm::cross(mesh.vertices()[t.y] - mesh.vertices()[t.x],
+                              mesh.vertices()[t.z] - mesh.vertices()[t.x]);
         }
         return sum;
     };

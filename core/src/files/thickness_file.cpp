@@ -63,9 +63,9 @@ void write_thickness(const std::filesystem::path& path, const TriangleMesh& mesh
     }
     const std::string extension = small_extension(path);
     if (extension == ".csv") {
-        write_text_atomically(path, csv_text(mesh, thickness_mm, unit_mm));
+        write_atomically(path, csv_text(mesh, thickness_mm, unit_mm));
     } else if (extension == ".ply") {
-        write_text_atomically(path, ply_bytes(mesh, thickness_mm, unit_mm));
+        write_atomically(path, ply_bytes(mesh, thickness_mm, unit_mm));
     } else {
         refuse_file(path, "is of a kind that cannot hold thickness", "name it .csv or .ply");
     }
