@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 #include <utility>
 
@@ -46,7 +47,18 @@ TriangleMesh MeshOptions::read() {
 }
 
 std::vector<double> MeshOptions::measure(const TriangleMesh& mesh) const {
-    return thickness(mesh, thickness_, show_progress);
+    ThicknessReport report = thickness_report(mesh, thickness_, show_progress);
+    const auto none = std::count(report.no_far_side.begin(), report.no_far_side.end(), 1);
+    if (none > 0) {
+        tell(
+            path_,
+            std::to_string(none) + " of " + std::to_string(report.mm.size()) + " vertices (" +
+                short_number(100.0 * report.no_far_side_fraction()) +
+                " %) found no far side: the mesh is open, doubled or flat there; they are given the diagonal "
+                "of its box, " +
+                short_number(*std::max_element(report.mm.begin(), report.mm.end())) + " mm");
+    }
+    return std::move(report.mm);
 }
 
 }  // namespace skinglow::cli
