@@ -110,7 +110,8 @@ TEST(AtomicFile, RefusesFoldersDevicesAndWhatCannotBeWritten) {
                               {"file /proc/a.csv", "cannot be written", "choose a folder"});
 }
 
-/// Whether a child process that does `work` again and again leaves nothing but whole files when it is ended by a signal.
+/// Whether a child process that does `work` again and again leaves nothing but whole files when it is ended
+/// by a signal.
 template <class Work>
 void expect_nothing_left(const fs::path& folder, int signal, const Work& work) {
     const pid_t child = ::fork();

@@ -25,7 +25,8 @@ double outline_area(const Outline& outline) {
     return area;
 }
 
-/// Cuts the outline as a polygon of a tilted plane and checks that the triangles fill it, each wound as it is.
+/// Cuts the outline as a polygon of a tilted plane and checks that the triangles fill it, each wound as it
+/// is.
 void expect_filled(const Outline& outline, const glm::dvec3& offset = glm::dvec3(0.0)) {
     const glm::dvec3 u(0.6, 0.0, 0.8);
     const glm::dvec3 v(0.0, 1.0, 0.0);

@@ -93,8 +93,8 @@ void write_named(const fs::path& name, std::string_view bytes, const fs::path& p
     flush(file.number(), path);
 }
 
-/// Into a file without a name, which nothing is left of whatever happens, and then gives it one. False where the file
-/// system has no such files.
+/// Into a file without a name, which nothing is left of whatever happens, and then gives it one. False where
+/// the file system has no such files.
 bool write_unnamed(const fs::path& name, std::string_view bytes, const fs::path& path) {
     const Descriptor file(::open(folder_of(name).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, ordinary_file));
     if (file.number() < 0) return false;

@@ -20,7 +20,8 @@ glm::dmat3 xyz_of_rgb(const Chromaticities& c) {
     return {primaries[0] * scale.r, primaries[1] * scale.g, primaries[2] * scale.b};
 }
 
-/// Takes XYZ under one white to another: Lam, "Metamerism and colour constancy" (1985), the Bradford transform.
+/// Takes XYZ under one white to another: Lam, "Metamerism and colour constancy" (1985), the Bradford
+/// transform.
 glm::dmat3 adapt_white(const glm::dvec3& from, const glm::dvec3& to) {
     const glm::dmat3 bradford(0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367, 1.0296);
     const glm::dvec3 ratio = (bradford * to) / (bradford * from);

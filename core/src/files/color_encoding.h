@@ -22,12 +22,13 @@ struct ColorEncoding {
     std::string note;                              ///< what it says and is not read
 };
 
-/// What a PNG's chunks cICP, iCCP, sRGB, gAMA and cHRM say, in this order of precedence (PNG, third edition, 4.3).
-/// None for another format or a PNG that says nothing. @throws FileError where it names an encoding that is not read
+/// What a PNG's chunks cICP, iCCP, sRGB, gAMA and cHRM say, in this order of precedence (PNG, third edition,
+/// 4.3). None for another format or a PNG that says nothing. @throws FileError where it names an encoding
+/// that is not read
 std::optional<ColorEncoding> read_png_encoding(const std::filesystem::path& path);
 
-/// Takes linear RGB of other primaries to linear Rec.709, white to white (Bradford); none where they are Rec.709's, up
-/// to rounding, or span no color space.
+/// Takes linear RGB of other primaries to linear Rec.709, white to white (Bradford); none where they are
+/// Rec.709's, up to rounding, or span no color space.
 std::optional<glm::dmat3> to_rec709(const Chromaticities& from);
 
 }  // namespace skinglow

@@ -11,11 +11,12 @@
 
 namespace skinglow {
 
-/// A glTF 2.0 file: its JSON and the bytes that it refers to. Khronos Group, "glTF 2.0 Specification" (ISO/IEC 12113).
-/// What a message names is a path in the JSON, such as "accessors[3]".
+/// A glTF 2.0 file: its JSON and the bytes that it refers to. Khronos Group, "glTF 2.0 Specification"
+/// (ISO/IEC 12113). What a message names is a path in the JSON, such as "accessors[3]".
 class GltfDocument {
   public:
-    /// Reads a .gltf or .glb file. @throws FileError where it is damaged, of another version or demands an extension
+    /// Reads a .gltf or .glb file. @throws FileError where it is damaged, of another version or demands an
+    /// extension
     ///                                that is not read
     explicit GltfDocument(const std::filesystem::path& path);
 
@@ -31,8 +32,8 @@ class GltfDocument {
     std::size_t number(const nlohmann::json& object, const char* key, const std::string& where,
                        std::size_t otherwise) const;
 
-    /// All components of an accessor, one element after the other, as numbers: normalized ones are in 0..1 or -1..1;
-    /// sparse ones are filled in; what has no buffer view is 0.
+    /// All components of an accessor, one element after the other, as numbers: normalized ones are in 0..1 or
+    /// -1..1; sparse ones are filled in; what has no buffer view is 0.
     /// @param type  that it must have, such as "VEC3"
     std::vector<double> read_accessor(std::size_t index, std::string_view type);
     /// How many elements an accessor has.
@@ -44,7 +45,8 @@ class GltfDocument {
     void read_container(std::string& content);
     void check_version() const;
     void check_extensions() const;
-    /// Bytes of a buffer view from an offset on that hold `count` elements `stride` apart, the last of `size` bytes.
+    /// Bytes of a buffer view from an offset on that hold `count` elements `stride` apart, the last of `size`
+    /// bytes.
     const char* view_bytes(std::size_t view, std::size_t offset, std::size_t count, std::size_t stride,
                            std::size_t size, const std::string& where);
     const std::string& buffer(std::size_t index);

@@ -11,7 +11,8 @@ namespace {
 
 using nlohmann::json;
 
-/// What instances and nodes may make of the parts of a file, in vertices and triangles; a larger file may hold more.
+/// What instances and nodes may make of the parts of a file, in vertices and triangles; a larger file may
+/// hold more.
 constexpr std::size_t max_expanded = 10'000'000;
 
 glm::dvec3 vector_at(const std::vector<double>& values, std::size_t i) {
@@ -177,8 +178,8 @@ class GltfReader {
         return result;
     }
 
-    /// The joints' placements of a skinned mesh, blended for each vertex; its own node's does not count (glTF 2.0,
-    /// chapter Skins).
+    /// The joints' placements of a skinned mesh, blended for each vertex; its own node's does not count (glTF
+    /// 2.0, chapter Skins).
     std::vector<glm::dmat4> skin_matrices(std::size_t index, const json& attributes, std::size_t count,
                                           const std::string& where) {
         const std::vector<glm::dmat4> joints = joint_matrices(index);

@@ -14,8 +14,8 @@
 namespace skinglow {
 namespace {
 
-/// How the file's numbers stand for light, by its own words; where it has none, floats are linear and whole numbers
-/// sRGB.
+/// How the file's numbers stand for light, by its own words; where it has none, floats are linear and whole
+/// numbers sRGB.
 ColorEncoding encoding_of(const LinearImage& image, const ImageInput& input, const ColorChannels& color) {
     using Transfer = ColorEncoding::Transfer;
     const OIIO::ImageSpec& spec = input.spec();

@@ -17,8 +17,9 @@ struct ColorChannels {
     std::vector<std::string> others;  ///< names of further layers of color, which are left aside
 };
 
-/// Finds the color among all parts and layers: the only one, the one named Combined (Blender's multilayer EXR), or the
-/// one whose channels are plainly R, G and B; else a channel alone as gray, with alpha or without.
+/// Finds the color among all parts and layers: the only one, the one named Combined (Blender's multilayer
+/// EXR), or the one whose channels are plainly R, G and B; else a channel alone as gray, with alpha or
+/// without.
 /// @throws FileError where there is none or several could be meant, naming them
 ColorChannels find_color(ImageInput& input);
 

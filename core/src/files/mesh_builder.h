@@ -30,8 +30,8 @@ class MeshBuilder {
     void add_face(std::span<const std::uint32_t> corners);
     void reserve(std::size_t vertices, std::size_t triangles);
 
-    /// The finished mesh: polygons cut into triangles, positions that occur twice joined, vertices of no face left
-    /// out. @throws FileError where there is no face or one has a vertex that does not exist
+    /// The finished mesh: polygons cut into triangles, positions that occur twice joined, vertices of no face
+    /// left out. @throws FileError where there is no face or one has a vertex that does not exist
     TriangleMesh take();
 
   private:

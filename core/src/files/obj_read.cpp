@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
 
-/// Wavefront OBJ, "Appendix B1. Object Files" of Wavefront's Advanced Visualizer manual: vertices, faces, groups and
-/// objects. Coordinates are doubles from the text's digits.
+/// Wavefront OBJ, "Appendix B1. Object Files" of Wavefront's Advanced Visualizer manual: vertices, faces,
+/// groups and objects. Coordinates are doubles from the text's digits.
 class ObjReader {
   public:
     ObjReader(const std::filesystem::path& path, const std::string& group)
@@ -53,7 +53,8 @@ class ObjReader {
         return word.starts_with('#') ? std::string_view() : word;
     }
 
-    /// A line without its end, together with those that it goes on to by a backslash; a comment never goes on.
+    /// A line without its end, together with those that it goes on to by a backslash; a comment never goes
+    /// on.
     std::string_view take_line() {
         std::string_view line = take_physical_line();
         first_line_ = line_;

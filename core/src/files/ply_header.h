@@ -42,8 +42,8 @@ struct PlyHeader {
     std::size_t size = 0;  ///< bytes up to the first element
 };
 
-/// Reads the header of a PLY file: G. Turk, "The PLY polygon file format" (1994), and the names of types with their
-/// size that came into use later. @throws FileError naming the line
+/// Reads the header of a PLY file: G. Turk, "The PLY polygon file format" (1994), and the names of types with
+/// their size that came into use later. @throws FileError naming the line
 PlyHeader read_ply_header(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace skinglow

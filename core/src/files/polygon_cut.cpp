@@ -23,7 +23,8 @@ std::uint32_t spread_bits(std::uint32_t bits) {
     return (bits | bits << 1U) & 0x55555555U;
 }
 
-/// The diagonal of a quad from its first corner runs outside where the quad is concave at the second or fourth.
+/// The diagonal of a quad from its first corner runs outside where the quad is concave at the second or
+/// fourth.
 bool first_diagonal_is_outside(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                                const glm::dvec3& d) {
     return glm::dot(glm::cross(b - a, c - a), glm::cross(c - a, d - a)) < 0.0;
@@ -79,8 +80,8 @@ void PolygonCutter::link_corners() {
         is_reflex_[i] = doubled_area(previous_[i], i, next_[i]) <= 0.0 ? 1 : 0;
 }
 
-/// The next corner to clip: an ear; where there is none, a corner on a straight line; where there is none either,
-/// the polygon crosses itself and any corner must do. False when too much work was done.
+/// The next corner to clip: an ear; where there is none, a corner on a straight line; where there is none
+/// either, the polygon crosses itself and any corner must do. False when too much work was done.
 bool PolygonCutter::next_ear(std::uint32_t left, std::uint32_t& tip) {
     const std::uint64_t max_work = max_work_per_corner * points_.size();
     while (queue_front_ < queue_.size()) {
@@ -134,8 +135,8 @@ void PolygonCutter::unblock(std::uint32_t corner) {
     first_waiting_[corner] = nothing;
 }
 
-/// Along the axis that the polygon's plane faces most, relative to its first corner, so that far from the origin
-/// nothing is lost.
+/// Along the axis that the polygon's plane faces most, relative to its first corner, so that far from the
+/// origin nothing is lost.
 void PolygonCutter::project(std::span<const std::uint32_t> corners, std::span<const glm::dvec3> positions) {
     const glm::dvec3 origin = positions[corners[0]];
     glm::dvec3 normal(0.0);

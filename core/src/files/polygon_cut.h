@@ -8,9 +8,9 @@
 
 namespace skinglow {
 
-/// Cuts polygons into triangles by clipping ears, concave ones too. An ear can only be blocked by reflex corners,
-/// which a tree of boxes finds; a blocked one is looked at again when what blocked it is gone. Polygons that cross
-/// themselves are cut somehow.
+/// Cuts polygons into triangles by clipping ears, concave ones too. An ear can only be blocked by reflex
+/// corners, which a tree of boxes finds; a blocked one is looked at again when what blocked it is gone.
+/// Polygons that cross themselves are cut somehow.
 class PolygonCutter {
   public:
     /// Appends the triangles of one polygon, two fewer than corners, wound as the polygon is.

@@ -91,14 +91,15 @@ double measure(const WeldedMesh& mesh, const RayScene& scene, std::span<const st
         const WeldedTriangle& triangle = mesh.triangles()[*exit];
         const double distance = triangle.plane - glm::dot(triangle.unit_normal, mesh.positions()[welded]);
         const double facing = 1.0 + glm::dot(inward, triangle.unit_normal);
-        // 0 where rounding puts the vertex behind the plane; the bound where the plane faces straight back at it.
+        // 0 where rounding puts the vertex behind the plane; the bound where the plane faces straight back at
+        // it.
         const double diameter =
             distance <= 0 ? 0.0 : std::min(2.0 * distance / std::max(facing, 1e-9), max_diameter);
         samples.push_back(
             {1.0 / std::max(diameter, min_diameter), glm::dot(direction, triangle.unit_normal)});
     }
-    // Of inverses, so that where the cone sees a thin and a thick side at once (the rim of an ear) the thin one,
-    // through which light would come, decides.
+    // Of inverses, so that where the cone sees a thin and a thick side at once (the rim of an ear) the thin
+    // one, through which light would come, decides.
     return samples.empty() ? no_exit : 1.0 / interquartile_mean(samples);
 }
 
