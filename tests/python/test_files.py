@@ -90,7 +90,7 @@ def test_scenes_of_transformed_and_mirrored_instances(tmp_path, body, mirrored, 
         assert_same(whole, results[extension], tolerance=2e-3)
     for extension, (positions, thickness, _triangles) in results.items():
         match = nearest(results["glb"][0], positions)
-        # The float32 of some formats lets single ones of the 16 rays of these coarse bodies pass an edge on its other side.
+        # Float32 lets single ones of the 16 rays pass an edge of these coarse bodies on its other side.
         off = np.abs(thickness[match] / results["glb"][1] - 1.0)
         assert np.quantile(off, 0.9) < 2e-3, extension
         assert off.max() < 0.15, extension
