@@ -18,7 +18,7 @@ class Measuring:
     def __init__(self, geometries: dict[str, Geometry]) -> None:
         core()  # raises here rather than in the thread if it is missing
         self.geometries = geometries  #: by object name
-        self.thicknesses: dict[str, np.ndarray] = {}  #: finished meshes, mm at each vertex
+        self.thicknesses: dict[str, tuple[np.ndarray, np.ndarray]] = {}  #: finished meshes, as `measure` returns them
         self.cancelled = False  #: set it to stop the thread
         self._fraction = 0.0
         self._fault: BaseException | None = None
@@ -35,8 +35,8 @@ class Measuring:
         """Whether the thread is still running."""
         return self._thread.is_alive()
 
-    def wait(self) -> dict[str, np.ndarray]:
-        """Waits for the thread; returns thicknesses in mm by object name, or raises the thread's exception."""
+    def wait(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Waits for the thread; returns what `measure` does by object name, or raises the thread's exception."""
         self._thread.join()
         if self._fault is not None:
             raise self._fault

@@ -99,8 +99,11 @@ class _MeasuringOperator:
     def _store(self, context: bpy.types.Context, geometries: dict, thicknesses: dict) -> set[str]:
         try:
             for name, values in thicknesses.items():
-                thickness_attribute.store_measured(_object(name), context.scene, geometries[name], values)
+                thickness_attribute.store_measured(_object(name), context.scene, geometries[name], *values)
             self.report({"INFO"}, self.finish(context, self._names))
+            for name in thicknesses:
+                if text := thickness_attribute.no_far_side_text(_object(name).data):
+                    self.report({"WARNING"}, f"{name}: {text}")
         except (SkinError, ValueError) as error:
             self.report({"ERROR"}, str(error))
         # Also after an error: some meshes may have changed, and Undo reverts that.

@@ -4,7 +4,8 @@
 import bpy
 
 from .skin_settings import TISSUE_SLIDERS
-from .thickness_attribute import unit_mm
+from .thickness_attribute import no_far_side_text, unit_mm
+from .wrapped_text import draw_wrapped
 
 
 def draw_look(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
@@ -54,4 +55,6 @@ def draw_thickness(layout: bpy.types.UILayout, obj: bpy.types.Object, context: b
     column.prop(obj.skinglow, "min_openness", slider=True)
     across = max(obj.dimensions) * unit_mm(obj, context.scene)
     layout.label(text=f"{obj.name} is {across:.4g} mm across", icon="DRIVER_DISTANCE")
+    if text := no_far_side_text(obj.data):
+        draw_wrapped(layout.column(align=True), text, context, icon="ERROR")
     layout.operator("skinglow.bake", icon="DRIVER_DISTANCE")

@@ -16,6 +16,8 @@ from .skin_settings import as_typed
 #: Mesh property: digest of the measured geometry, or GIVEN for custom thicknesses.
 MEASURED_GEOMETRY = "skinglow_measured"
 GIVEN = "given"
+#: Mesh property: fraction of the vertices at which no far side was found.
+NO_FAR_SIDE = "skinglow_no_far_side"
 
 
 def unit_mm(obj: bpy.types.Object, scene: bpy.types.Scene) -> float:
@@ -77,12 +79,16 @@ def ensure_measured(
     geometry = read_geometry(obj, scene)
     if is_measured(obj, geometry):
         return False
-    store_measured(obj, scene, geometry, measure(geometry, progress))
+    store_measured(obj, scene, geometry, *measure(geometry, progress))
     return True
 
 
 def store_measured(
-    obj: bpy.types.Object, scene: bpy.types.Scene, geometry: Geometry, thickness_mm: Sequence[float]
+    obj: bpy.types.Object,
+    scene: bpy.types.Scene,
+    geometry: Geometry,
+    thickness_mm: Sequence[float],
+    no_far_side: Sequence[bool] = (),
 ) -> None:
     """Stores measured thicknesses and their geometry's digest; raises SkinError if the mesh changed meanwhile."""
     digest = geometry.digest()
@@ -90,17 +96,30 @@ def store_measured(
         raise SkinError(f"'{obj.name}' was changed while its thickness was measured: measure again")
     store(obj, thickness_mm, geometry.unit_mm)
     obj.data[MEASURED_GEOMETRY] = digest
+    obj.data[NO_FAR_SIDE] = float(np.mean(no_far_side)) if len(no_far_side) else 0.0
 
 
-def measure(geometry: Geometry, progress: Callable[[float], bool] | None = None) -> np.ndarray:
-    """Thickness at each vertex, (n,) mm; `progress` is called with the completed fraction, returns False to stop."""
+def no_far_side_text(mesh: bpy.types.Mesh) -> str:
+    """What a person should know about vertices without a far side; empty if there are none."""
+    fraction = mesh.get(NO_FAR_SIDE, 0.0)
+    if fraction <= 0.0:
+        return ""
+    share = f"{fraction:.1%}" if fraction >= 0.001 else "Some"
+    return f"{share} of the vertices found no far side: the mesh is open, doubled or flat there, and shows no glow"
+
+
+def measure(geometry: Geometry, progress: Callable[[float], bool] | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """Thickness at each vertex, (n,) mm, and where no far side was found, (n,) bool.
+
+    `progress` is called with the completed fraction, returns False to stop.
+    """
     sg = core()
-    if not hasattr(sg, "thickness"):
+    if not hasattr(sg, "thickness_report"):
         raise SkinError(
             "This build of the core was made without Embree and measures no thickness: pass thicknesses as "
             "make_skin(obj, thickness=[mm, ...])"
         )
-    return sg.thickness(
+    return sg.thickness_report(
         geometry.vertices,
         geometry.triangles,
         unit_mm=geometry.unit_mm,
@@ -141,6 +160,7 @@ def store(obj: bpy.types.Object, thickness_mm: Sequence[float], unit_mm: float) 
         attribute = mesh.attributes.new(THICKNESS_ATTRIBUTE, "FLOAT", "POINT")
     attribute.data.foreach_set("value", values)
     mesh[MEASURED_GEOMETRY] = GIVEN
+    mesh.pop(NO_FAR_SIDE, None)
     mesh[MEASURED_SIZE] = abs(obj.matrix_world.to_3x3().determinant()) ** (1.0 / 3.0)
     mesh[MEASURED_UNIT] = unit_mm
     normals = np.empty(3 * len(mesh.vertices), np.float32)
@@ -155,5 +175,5 @@ def remove(mesh: bpy.types.Mesh) -> None:
     attribute = mesh.attributes.get(THICKNESS_ATTRIBUTE)
     if attribute is not None:
         mesh.attributes.remove(attribute)
-    for name in (MEASURED_SIZE, MEASURED_UNIT, MEASURED_CONE, MEASURED_GEOMETRY):
+    for name in (MEASURED_SIZE, MEASURED_UNIT, MEASURED_CONE, MEASURED_GEOMETRY, NO_FAR_SIDE):
         mesh.pop(name, None)

@@ -64,7 +64,7 @@ from skinglow._core import (
 )
 from skinglow._occlusion import Occluders, VisibleFraction
 from skinglow._renamed import __getattr__ as __getattr__
-from skinglow._thickness import thickness
+from skinglow._thickness import ThicknessReport, thickness, thickness_report
 
 __all__ = [
     "__version__",
@@ -135,5 +135,7 @@ __all__ = [
     # Meshes
     "Occluders",
     "VisibleFraction",
+    "ThicknessReport",
     "thickness",
+    "thickness_report",
 ]

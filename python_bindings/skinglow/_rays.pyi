@@ -16,7 +16,7 @@ DEFAULT_SAMPLES: Final[int]
 class ThicknessCancelled(RuntimeError):
     """Raised where progress asks to stop."""
 
-def thickness(
+def thickness_report(
     vertices: ArrayLike,
     triangles: ArrayLike,
     unit_mm: float,
@@ -25,7 +25,7 @@ def thickness(
     min_sky_visibility: float,
     threads: int,
     progress: Callable[[float], bool] | None,
-) -> NDArray[np.float64]: ...
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]: ...
 
 class Occluders:
     def __init__(self, meshes: Iterable[tuple[ArrayLike, ArrayLike]], origin: ArrayLike | None) -> None: ...

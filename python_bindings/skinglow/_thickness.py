@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,7 +11,19 @@ from numpy.typing import ArrayLike, NDArray
 from skinglow._rays_loader import load_rays
 from skinglow._renamed import renamed_keywords
 
-__all__ = ["thickness"]
+__all__ = ["ThicknessReport", "thickness", "thickness_report"]
+
+
+class ThicknessReport(NamedTuple):
+    """Thickness, and where it was found."""
+
+    thickness_mm: NDArray[np.float64]  #: (n,), as `thickness` gives it
+    no_far_side: NDArray[np.bool_]  #: (n,), where no ray found a way out: the mesh is open, doubled or flat there
+
+    @property
+    def no_far_side_fraction(self) -> float:
+        """Fraction of the vertices that found no far side; 0 for an empty mesh."""
+        return float(self.no_far_side.mean()) if len(self.no_far_side) else 0.0
 
 
 @renamed_keywords(min_openness="min_sky_visibility")
@@ -49,8 +62,32 @@ def thickness(
     diagonal: thicker than anything in the mesh. Never NaN, infinite or negative.
     Raises ValueError naming the argument, the value and what is allowed.
     """
+    return thickness_report(
+        vertices,
+        triangles,
+        unit_mm,
+        rays,
+        cone_half_angle=cone_half_angle,
+        min_sky_visibility=min_sky_visibility,
+        threads=threads,
+        progress=progress,
+    ).thickness_mm
+
+
+def thickness_report(
+    vertices: ArrayLike,
+    triangles: ArrayLike,
+    unit_mm: float = 1.0,
+    rays: int | None = None,
+    *,
+    cone_half_angle: float | None = None,
+    min_sky_visibility: float = 0.0,
+    threads: int = 0,
+    progress: Callable[[float], bool] | None = None,
+) -> ThicknessReport:
+    """As `thickness`, and tells at which vertices no far side was found. Parameters and errors as there."""
     module = load_rays()
-    return module.thickness(
+    values, no_far_side = module.thickness_report(
         vertices,
         triangles,
         unit_mm,
@@ -60,3 +97,4 @@ def thickness(
         threads,
         progress,
     )
+    return ThicknessReport(values, no_far_side)

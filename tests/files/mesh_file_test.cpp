@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "mesh_samples.h"
 #include "rig_files/file_error.h"
 #include "scratch_folder.h"
 
@@ -21,7 +22,7 @@ std::string corner(int i) {
     return std::to_string(i / 4) + " " + std::to_string(i / 2 % 2) + " " + std::to_string(i % 2) + "\n";
 }
 
-/// A unit cube whose corners have a normal for each face: Assimp splits them.
+/// A unit cube whose corners have a normal for each face, which a reader may take for vertices of their own.
 std::string cube_obj() {
     std::string text = "o cube\n";
     for (int i = 0; i < 8; ++i) text += "v " + corner(i);
@@ -47,13 +48,6 @@ std::string cube_ply_text() {
         text += "\n";
     }
     return text;
-}
-
-template <class Number>
-void append(std::string& bytes, Number number, bool big_endian) {
-    std::array<char, sizeof(Number)> raw = std::bit_cast<std::array<char, sizeof(Number)>>(number);
-    if (big_endian == (std::endian::native == std::endian::little)) std::reverse(raw.begin(), raw.end());
-    bytes.append(raw.data(), raw.size());
 }
 
 std::string cube_ply_binary(bool big_endian) {
@@ -93,17 +87,17 @@ void expect_unit_cube(const TriangleMesh& mesh) {
 TEST(MeshFile, ObjVerticesAreJoinedAndGroupsChosen) {
     const ScratchFolder folder;
     const auto path = folder.write("cube.obj", cube_obj());
-    expect_unit_cube(read_mesh(path, "box"));
-    EXPECT_EQ(read_mesh(path).triangles().size(), 13U);
+    expect_unit_cube(read_mesh(path, "box").mesh);
+    EXPECT_EQ(read_mesh(path).mesh.triangles().size(), 13U);
     expect_refused<FileError>([&] { read_mesh(path, "nose"); },
                               {"cube.obj", "no group \"nose\"", "box", "extra"});
 }
 
 TEST(MeshFile, PlyInEveryCoding) {
     const ScratchFolder folder;
-    expect_unit_cube(read_mesh(folder.write("a.ply", cube_ply_text())));
-    expect_unit_cube(read_mesh(folder.write("b.ply", cube_ply_binary(false))));
-    expect_unit_cube(read_mesh(folder.write("c.ply", cube_ply_binary(true))));
+    expect_unit_cube(read_mesh(folder.write("a.ply", cube_ply_text())).mesh);
+    expect_unit_cube(read_mesh(folder.write("b.ply", cube_ply_binary(false))).mesh);
+    expect_unit_cube(read_mesh(folder.write("c.ply", cube_ply_binary(true))).mesh);
     expect_refused<FileError>([&] { read_mesh(folder / "a.ply", "box"); }, {"a.ply", "no group"});
 }
 
@@ -152,12 +146,13 @@ TEST(MeshFile, RefusesOtherDamagedMeshes) {
     folder.write("short.glb", std::string("glTF\x02\x00\x00\x00\xff\x00\x00\x00", 12) + std::string(40, 'x'));
     expect_refused<FileError>([&] { read_mesh(folder / "short.glb"); }, {"short.glb"});
     folder.write("mesh.xyz", "1 2 3\n");
-    expect_refused<FileError>([&] { read_mesh(folder / "mesh.xyz"); }, {"mesh.xyz", "OBJ, PLY or GLB"});
+    expect_refused<FileError>([&] { read_mesh(folder / "mesh.xyz"); },
+                              {"mesh.xyz", "OBJ, PLY, STL, glTF or GLB"});
 }
 
 TEST(ThicknessFile, CsvHasEveryDigitAndPlyReadsBack) {
     const ScratchFolder folder;
-    const TriangleMesh mesh = read_mesh(folder.write("cube.ply", cube_ply_text()));
+    const TriangleMesh mesh = read_mesh(folder.write("cube.ply", cube_ply_text())).mesh;
     std::vector<double> thickness;
     for (int i = 0; i < 8; ++i) thickness.push_back(1.0 / (3 + i));
     write_thickness(folder / "t.csv", mesh, thickness, 10.0);
@@ -167,13 +162,13 @@ TEST(ThicknessFile, CsvHasEveryDigitAndPlyReadsBack) {
               std::string::npos)
         << text;
     write_thickness(folder / "t.ply", mesh, thickness, 10.0);
-    expect_unit_cube(read_mesh(folder / "t.ply"));
+    expect_unit_cube(read_mesh(folder / "t.ply").mesh);
     EXPECT_NE(read_bytes(folder / "t.ply").find("property float thickness_mm"), std::string::npos);
 }
 
 TEST(ThicknessFile, Refuses) {
     const ScratchFolder folder;
-    const TriangleMesh mesh = read_mesh(folder.write("cube.ply", cube_ply_text()));
+    const TriangleMesh mesh = read_mesh(folder.write("cube.ply", cube_ply_text())).mesh;
     const std::vector<double> good(8, 1.0);
     std::vector<double> bad = good;
     bad[3] = std::numeric_limits<double>::quiet_NaN();

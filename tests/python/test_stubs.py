@@ -95,7 +95,9 @@ def test_package_exports_every_name_once() -> None:
     (exported,) = definitions(tree)["__all__"]
     public = {name for name in vars(core) if is_public(name)} | {
         "__version__",
+        "ThicknessReport",
         "thickness",
+        "thickness_report",
         "Occluders",
         "VisibleFraction",
     }
@@ -148,8 +150,8 @@ def test_stub_of_the_rays_is_that_of_the_module() -> None:
     rays = load_rays()
     in_stub = definitions(stub("_rays"))
     assert set(in_stub) == {name for name in vars(rays) if is_public(name)}
-    (function,) = in_stub["thickness"]
-    assert parameters(function) == parameters(bound_signature(rays.thickness))
+    (function,) = in_stub["thickness_report"]
+    assert parameters(function) == parameters(bound_signature(rays.thickness_report))
     assert issubclass(rays.ThicknessCancelled, RuntimeError)
     (owner,) = in_stub["Occluders"]
     methods = definitions(owner)

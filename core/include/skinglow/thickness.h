@@ -2,6 +2,7 @@
 
 #include <skinglow/mesh.h>
 
+#include <cstdint>
 #include <functional>
 #include <numbers>
 #include <stdexcept>
@@ -69,5 +70,20 @@ class ThicknessCancelled : public std::runtime_error {
 ///         cannot work, ThicknessCancelled, and what `progress` throws
 std::vector<double> thickness(const MeshView& mesh, const ThicknessOptions& options = {},
                               const ThicknessProgress& progress = {});
+
+/// Thickness, and where it was found.
+struct ThicknessReport {
+    std::vector<double> mm;  ///< one per vertex, as thickness() gives it
+    std::vector<std::uint8_t>
+        no_far_side;  ///< one per vertex: 1 where no ray found a way out, as of open, doubled or
+                      ///< flat meshes; the thickness is the box's diagonal there
+
+    /// Fraction of the vertices that found no far side; 0 for an empty mesh.
+    double no_far_side_fraction() const;
+};
+
+/// As thickness(), and tells where no far side was found. Parameters and errors as there.
+ThicknessReport thickness_report(const MeshView& mesh, const ThicknessOptions& options = {},
+                                 const ThicknessProgress& progress = {});
 
 }  // namespace skinglow

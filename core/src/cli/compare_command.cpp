@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "cli/output_text.h"
 #include "files/image_compare.h"
+#include "files/output_guard.h"
 #include "numerics/argument_check.h"
 
 namespace skinglow::cli {
@@ -62,6 +63,7 @@ void print_text(const ImageComparison& comparison, std::optional<double> heat_ma
 int run(const Options& options) {
     const bool limited = options.max_rms_option->count() > 0;
     if (limited) require_not_negative("--max-rms", options.max_rms);
+    refuse_overwriting({options.heat_map}, {options.first, options.second, options.mask});
     CompareOptions how;
     how.peak = options.peak;
     how.ignore_edges = options.ignore_edges;

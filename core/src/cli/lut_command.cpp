@@ -12,6 +12,7 @@
 #include "cli/table_options.h"
 #include "files/lut_file.h"
 #include "files/lut_preview.h"
+#include "files/output_guard.h"
 #include "numerics/argument_check.h"
 
 namespace skinglow::cli {
@@ -91,6 +92,7 @@ LutTable make_table(const Options& options, LutMode mode) {
 
 void run(const Options& options) {
     const LutMode mode = chosen_mode(options);
+    refuse_overwriting({options.output, options.preview}, {options.rig.path(), options.table.base_path()});
     LutTable table = make_table(options, mode);
     table.record.mode = mode;
     const PngOptions png{options.bits, options.encoding == "linear" ? Encoding::linear : Encoding::srgb};

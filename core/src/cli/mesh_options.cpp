@@ -2,7 +2,11 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
+#include <utility>
+
+#include "cli/output_text.h"
 
 namespace skinglow::cli {
 namespace {
@@ -18,10 +22,13 @@ bool show_progress(double done) {
 }  // namespace
 
 void MeshOptions::add_to(CLI::App& command, const std::string& mesh_name) {
-    command.add_option(mesh_name, path_, "OBJ, PLY, GLB or another format that Assimp reads")->required();
-    command.add_option("--unit", thickness_.unit_mm, "Length of the mesh's unit; 1000 for meters")
-        ->type_name("MM")
-        ->capture_default_str();
+    command.add_option(mesh_name, path_, "OBJ, PLY, STL, glTF or GLB")->required();
+    unit_option_ =
+        command
+            .add_option(
+                "--unit", thickness_.unit_mm,
+                "Length of the mesh's unit; else 1000 for glTF and GLB, whose unit is the meter, and 1")
+            ->type_name("MM");
     command.add_option("--group", group_, "Only this group or object of the file")->type_name("NAME");
     command.add_option("--rays", thickness_.rays, "Rays per vertex")->type_name("N")->capture_default_str();
     command
@@ -31,8 +38,27 @@ void MeshOptions::add_to(CLI::App& command, const std::string& mesh_name) {
         ->capture_default_str();
 }
 
+TriangleMesh MeshOptions::read() {
+    MeshFile file = read_mesh(path_, group_);
+    for (const std::string& note : file.notes) tell(path_, note);
+    if (unit_option_->count() == 0) thickness_.unit_mm = file.unit_mm;
+    sources_ = std::move(file.sources);
+    return std::move(file.mesh);
+}
+
 std::vector<double> MeshOptions::measure(const TriangleMesh& mesh) const {
-    return thickness(mesh, thickness_, show_progress);
+    ThicknessReport report = thickness_report(mesh, thickness_, show_progress);
+    const auto none = std::count(report.no_far_side.begin(), report.no_far_side.end(), 1);
+    if (none > 0) {
+        tell(
+            path_,
+            std::to_string(none) + " of " + std::to_string(report.mm.size()) + " vertices (" +
+                short_number(100.0 * report.no_far_side_fraction()) +
+                " %) found no far side: the mesh is open, doubled or flat there; they are given the diagonal "
+                "of its box, " +
+                short_number(*std::max_element(report.mm.begin(), report.mm.end())) + " mm");
+    }
+    return std::move(report.mm);
 }
 
 }  // namespace skinglow::cli

@@ -18,8 +18,11 @@ class MeshOptions {
     void add_to(CLI::App& command, const std::string& mesh_name);
 
     double unit_mm() const { return thickness_.unit_mm; }
-    /// Throws FileError.
-    TriangleMesh read() const { return read_mesh(path_, group_); }
+    /// Reads the mesh; the unit is that of its format where --unit does not say. Tells what was left out.
+    /// @throws FileError
+    TriangleMesh read();
+    /// The files that were read.
+    const std::vector<std::filesystem::path>& sources() const { return sources_; }
     /// One per vertex, mm; shows how far it is to a person who waits.
     std::vector<double> measure(const TriangleMesh& mesh) const;
 
@@ -27,6 +30,8 @@ class MeshOptions {
     std::string path_;
     std::string group_;
     ThicknessOptions thickness_;
+    CLI::Option* unit_option_ = nullptr;
+    std::vector<std::filesystem::path> sources_;
 };
 
 }  // namespace skinglow::cli

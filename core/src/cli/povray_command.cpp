@@ -7,8 +7,8 @@
 #include <iostream>
 #include <memory>
 #include <numbers>
+#include <set>
 #include <stdexcept>
-#include <system_error>
 
 #include "cli/commands.h"
 #include "cli/mesh_options.h"
@@ -16,6 +16,7 @@
 #include "cli/rig_options.h"
 #include "cli/table_options.h"
 #include "files/atomic_file.h"
+#include "files/output_guard.h"
 #include "numerics/argument_check.h"
 #include "rig_files/file_error.h"
 
@@ -64,8 +65,8 @@ PovrayCamera frame(const TriangleMesh& mesh, const Options& options) {
     return camera;
 }
 
-/// The glow from a table that was made before: it goes into the folder as it is.
-PovrayLut use_table(const Options& options, const std::filesystem::path& folder) {
+/// The glow from a table that was made before: it goes among the scene's pictures as it is.
+PovrayLut use_table(const Options& options, std::map<std::string, std::string>& pictures) {
     if (options.table.any_used()) {
         throw std::invalid_argument(
             "--lut brings its own table: leave out --mode, --base, --size and --max-thickness");
@@ -77,7 +78,7 @@ PovrayLut use_table(const Options& options, const std::filesystem::path& folder)
     lut.glow = PovrayGlow::image;
     lut.image = "lut.exr";
     if (file.table.record.mode) lut.mode = *file.table.record.mode;
-    write_lut(folder / lut.image, file.table);
+    pictures[lut.image] = lut_exr_bytes(lut.image, file.table);
     return lut;
 }
 
@@ -97,22 +98,29 @@ PovrayLut compute_table(const Options& options) {
     return lut;
 }
 
-std::filesystem::path make_folder(const std::string& name) {
-    std::error_code error;
-    std::filesystem::create_directories(name, error);
-    if (error)
-        refuse_file(name, "cannot be made: " + error.message(), "choose a folder that you may write to");
-    return name;
+/// All files that a scene may have. Of an earlier scene in the folder those go that this one has not.
+const std::set<std::string> scene_files = {"camera.inc", "lights.inc", "lut.exr",   "lut.inc",
+                                           "mesh.inc",   "scene.ini",  "scene.pov", "skinglow.inc"};
+
+/// Nothing that is read may stand where a file of the scene will.
+void check_folder(const Options& options) {
+    std::vector<std::filesystem::path> outputs;
+    for (const std::string& name : scene_files)
+        outputs.push_back(std::filesystem::path(options.folder) / name);
+    std::vector<std::filesystem::path> inputs = options.mesh.sources();
+    inputs.insert(inputs.end(), {options.rig.path(), options.table.base_path(), options.lut});
+    refuse_overwriting(outputs, inputs);
 }
 
-void run(const Options& options) {
+void run(Options& options) {
     const LightRig rig = options.rig.read();
     const TriangleMesh mesh = turn_upright(options.mesh.read(), options.up);
-    const std::filesystem::path folder = make_folder(options.folder);
+    check_folder(options);
+    std::map<std::string, std::string> pictures;
     PovrayScene scene;
     scene.camera = frame(mesh, options);
     scene.lights = rig.lights;
-    scene.lut = options.lut.empty() ? compute_table(options) : use_table(options, folder);
+    scene.lut = options.lut.empty() ? compute_table(options) : use_table(options, pictures);
     scene.lut.point = rig.point;
     scene.lut.coefficients = rig.coefficients;
     scene.lut.blood_weight = rig.blood_weight;
@@ -124,9 +132,11 @@ void run(const Options& options) {
     for (const double thickness : options.mesh.measure(mesh)) {
         scene.mesh.lut_u.push_back(scene.lut.axis.texel_scale() * thickness + scene.lut.axis.texel_offset());
     }
-    const auto files = povray_files(scene);
-    for (const auto& [name, text] : files) write_text_atomically(folder / name, text);
-    std::cout << options.folder << ": " << files.size() << " files, " << mesh.triangles().size()
+    auto files = povray_files(scene);
+    const std::size_t texts = files.size();
+    files.merge(pictures);
+    replace_folder(options.folder, files, scene_files);
+    std::cout << options.folder << ": " << texts << " files, " << mesh.triangles().size()
               << " triangles; render with: cd " << options.folder << " && povray scene.ini\n";
 }
 

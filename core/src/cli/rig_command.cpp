@@ -3,6 +3,7 @@
 
 #include "cli/commands.h"
 #include "cli/rig_options.h"
+#include "files/output_guard.h"
 
 namespace skinglow::cli {
 namespace {
@@ -23,6 +24,7 @@ void add_rig_command(CLI::App& program) {
         ->required();
     command->footer("Example: skinglow rig rim.sl --camera-rotation 90 0 35 -o rim.json");
     command->callback([options] {
+        refuse_overwriting({options->output}, {options->rig.path()});
         const LightRig rig = options->rig.read();
         write_light_rig(options->output, rig);
         std::cout << options->output << ": " << rig.lights.size() << " lights\n";

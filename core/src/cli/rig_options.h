@@ -22,6 +22,7 @@ class RigOptions {
     void add_to(CLI::App& command, RigNeed need);
 
     bool given() const { return !rig_path_.empty(); }
+    const std::string& path() const { return rig_path_; }
     /// True where an option that needs a rig was used.
     bool any_used() const;
     /// Axes of the camera by --camera-rotation, else Blender's front view.

@@ -25,6 +25,9 @@ class TableOptions {
     /// Throws FileError and std::invalid_argument.
     BaseLut read_base() const;
 
+    /// The file of --base; empty without.
+    const std::string& base_path() const { return base_; }
+
   private:
     std::string mode_{to_text(LutMode::paper)};
     std::string base_;

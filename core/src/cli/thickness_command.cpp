@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/mesh_options.h"
 #include "cli/output_text.h"
+#include "files/output_guard.h"
 
 namespace skinglow::cli {
 namespace {
@@ -14,8 +15,9 @@ struct Options {
     std::string output;
 };
 
-void run(const Options& options) {
+void run(Options& options) {
     const TriangleMesh mesh = options.mesh.read();
+    refuse_overwriting({options.output}, options.mesh.sources());
     std::vector<double> values = options.mesh.measure(mesh);
     write_thickness(options.output, mesh, values, options.mesh.unit_mm());
     std::sort(values.begin(), values.end());

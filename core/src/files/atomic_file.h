@@ -2,22 +2,30 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <set>
+#include <string>
 #include <string_view>
 
 namespace skinglow {
 
-/// Writes a file whole or not at all: `write` fills a temporary file in the same folder, which is then
-/// flushed to the disk (fsync) and renamed to `path`. When anything fails, what stood at `path` before stands
-/// there still and the temporary file is gone. Links are followed. May be called from many threads at once.
-/// @param path   no device or folder: renaming over /dev/stdout would replace the device
-/// @param write  gets the temporary file's name, which has the extension of `path`; reports failure by
-///               throwing
-/// @throws FileError where the folder is missing or cannot be written, or where `path` is no regular file;
-///         and whatever `write` throws
-void write_atomically(const std::filesystem::path& path,
-                      const std::function<void(const std::filesystem::path& temporary)>& write);
+/// Writes a file whole or not at all: into one without a name in the same folder, which is flushed to the
+/// disk (fsync) and then takes the place of `path`. When anything fails or a signal comes, what stood at
+/// `path` before stands there still and nothing else is left. Links are followed.
+/// @throws FileError where the folder is missing or cannot be written, or where `path` is no regular
+///         file (a rename over /dev/stdout would replace the device)
+void write_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-/// The same for bytes at hand.
-void write_text_atomically(const std::filesystem::path& path, std::string_view text);
+/// Writes a folder of files, by name, as a whole or not at all: into a new folder beside it, which then
+/// changes places with it in one step. Also with two writers at once it holds the files of one of them. What
+/// else it held stays, but for `obsolete` names.
+/// @param obsolete  files of an earlier writing that are to go where `files` has none of that name
+/// @throws FileError where it cannot be written, is no folder or is the working directory, which
+///         would be lost under the feet of the shell
+void replace_folder(const std::filesystem::path& path, const std::map<std::string, std::string>& files,
+                    const std::set<std::string>& obsolete);
+
+/// Where the links lead, also where nothing is yet: std::filesystem::canonical wants a file at the end.
+std::filesystem::path follow_links(std::filesystem::path path);
 
 }  // namespace skinglow

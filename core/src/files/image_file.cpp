@@ -5,91 +5,89 @@
 #include <cmath>
 #include <optional>
 
+#include "files/color_encoding.h"
 #include "files/image_input.h"
+#include "files/image_layers.h"
 #include "files/transfer_function.h"
 #include "rig_files/file_error.h"
 
 namespace skinglow {
 namespace {
 
-/// Places of the color channels within an image part; all three alike for gray.
-struct ColorChannels {
-    std::array<int, 3> rgb{};
-    std::optional<int> alpha;
-};
-
-std::optional<int> find_channel(const OIIO::ImageSpec& spec, std::string_view name) {
-    for (int i = 0; i < spec.nchannels; ++i) {
-        if (spec.channelnames[static_cast<std::size_t>(i)] == name) return i;
-    }
-    return std::nullopt;
-}
-
-/// The channels "<layer>R", "<layer>G", "<layer>B", and "<layer>A" if there is one.
-std::optional<ColorChannels> layer_channels(const OIIO::ImageSpec& spec, const std::string& layer) {
-    const auto red = find_channel(spec, layer + "R");
-    const auto green = find_channel(spec, layer + "G");
-    const auto blue = find_channel(spec, layer + "B");
-    if (!red || !green || !blue) return std::nullopt;
-    return ColorChannels{{*red, *green, *blue}, find_channel(spec, layer + "A")};
-}
-
-/// Prefixes ("ViewLayer.Combined.") of the layers that hold a color.
-std::vector<std::string> color_layers(const OIIO::ImageSpec& spec) {
-    std::vector<std::string> layers;
-    for (const std::string& name : spec.channelnames) {
-        if (!name.ends_with(".R")) continue;
-        const std::string layer = name.substr(0, name.size() - 1);
-        if (layer_channels(spec, layer)) layers.push_back(layer);
-    }
-    return layers;
-}
-
-std::optional<ColorChannels> find_color(const ImageInput& input) {
+/// How the file's numbers stand for light, by its own words; where it has none, floats are linear and whole
+/// numbers sRGB.
+ColorEncoding encoding_of(const LinearImage& image, const ImageInput& input, const ColorChannels& color) {
+    using Transfer = ColorEncoding::Transfer;
     const OIIO::ImageSpec& spec = input.spec();
-    if (auto plain = layer_channels(spec, "")) return plain;
-    std::vector<std::string> layers = color_layers(spec);
-    std::vector<std::string> combined;
-    std::copy_if(layers.begin(), layers.end(), std::back_inserter(combined), [](const std::string& layer) {
-        return layer == "Combined." || layer.ends_with(".Combined.");
-    });
-    if (!combined.empty()) layers = combined;
-    if (layers.size() == 1) return layer_channels(spec, layers.front());
-    if (layers.size() > 1) {
-        refuse_file(input.path(),
-                    "has " + std::to_string(layers.size()) + " layers of color, such as " + layers[0] + "R",
-                    "write the one you mean to a file of its own");
-    }
-    if (spec.nchannels == 1) return ColorChannels{{0, 0, 0}, std::nullopt};
-    if (spec.nchannels == 2) return ColorChannels{{0, 0, 0}, 1};  // gray and alpha
-    return std::nullopt;
-}
-
-/// The exponent of a color space that OpenImageIO names "GammaX.Y" (a PNG with a gamma of its own).
-std::optional<double> gamma_exponent(const OIIO::ImageSpec& spec) {
-    const float gamma = spec.get_float_attribute("oiio:Gamma", 0.0F);
-    const std::string space = spec.get_string_attribute("oiio:ColorSpace");
-    if (space.starts_with("Gamma") && gamma > 0.0F && std::isfinite(gamma)) return gamma;
-    return std::nullopt;
-}
-
-/// Makes values linear in place by what the file says of itself.
-void decode(LinearImage& image, const OIIO::ImageSpec& spec) {
-    const std::string space = spec.get_string_attribute("oiio:ColorSpace");
     const auto own = image.text.find("skinglow:encoding");
-    const bool floats = spec.format.is_floating_point();
-    if (own != image.text.end() ? own->second == "linear"
-                                : (space == "Linear" || (floats && space != "sRGB")))
-        return;
-    if (const auto exponent = gamma_exponent(spec); exponent && own == image.text.end()) {
-        if (std::abs(*exponent - 1.0) < 0.01) return;  // gAMA holds 5 digits; 1 means linear
-        for (float& value : image.rgb) value = static_cast<float>(std::pow(std::max(value, 0.0F), *exponent));
-        image.notes.push_back("its values were decoded from gamma " + std::to_string(*exponent) +
-                              " to linear light");
-        return;
+    ColorEncoding encoding;
+    if (own != image.text.end()) {
+        encoding.transfer = own->second == "linear" ? Transfer::linear : Transfer::srgb;
+        return encoding;
     }
-    for (float& value : image.rgb) value = static_cast<float>(srgb_to_linear(value));
-    image.notes.emplace_back("its values were decoded from sRGB to linear light");
+    if (auto png = read_png_encoding(input.path())) return *png;
+    const OIIO::TypeDesc type = spec.channelformat(color.rgb[0]);
+    const std::string space = spec.get_string_attribute("oiio:ColorSpace");
+    const bool names_srgb = OIIO::Strutil::iequals(space, "sRGB");
+    if (OIIO::Strutil::iequals(space, "linear") || (type.is_floating_point() && !names_srgb)) {
+        encoding.transfer = Transfer::linear;
+    } else if (const float gamma = spec.get_float_attribute("oiio:Gamma", 0.0F);
+               OIIO::Strutil::istarts_with(space, "Gamma") && gamma > 0.0F && std::isfinite(gamma)) {
+        encoding.transfer = Transfer::gamma;
+        encoding.gamma = gamma;
+    }
+    Chromaticities values{};
+    std::array<float, 8> floats{};
+    if (spec.getattribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), floats.data())) {
+        std::copy(floats.begin(), floats.end(), values.begin());
+        encoding.chromaticities = values;
+    }
+    const std::string interop = spec.get_string_attribute("colorInteropID");
+    if (!interop.empty() && interop != "lin_rec709_scene" && !encoding.chromaticities) {
+        encoding.note = "its color space \"" + interop + "\" is not read; it is taken as Rec.709";
+    }
+    if (spec.find_attribute("ICCProfile") != nullptr) {
+        const std::string name = spec.get_string_attribute("ICCProfile:profile_description");
+        if (name.find("sRGB") == std::string::npos) {
+            encoding.note = "its ICC profile \"" + name + "\" is not read; it is taken as Rec.709";
+        }
+    }
+    return encoding;
+}
+
+/// Makes values linear Rec.709 in place.
+void decode(LinearImage& image, const ColorEncoding& encoding) {
+    if (encoding.transfer == ColorEncoding::Transfer::gamma) {
+        for (float& value : image.rgb) {
+            value = static_cast<float>(std::pow(std::max(value, 0.0F), encoding.gamma));
+        }
+        image.notes.push_back("its values were decoded from gamma " + std::to_string(encoding.gamma) +
+                              " to linear light");
+    } else if (encoding.transfer == ColorEncoding::Transfer::srgb) {
+        for (float& value : image.rgb) value = static_cast<float>(srgb_to_linear(value));
+        image.notes.emplace_back("its values were decoded from sRGB to linear light");
+    }
+    if (!encoding.note.empty()) image.notes.push_back(encoding.note);
+    if (image.gray || !encoding.chromaticities) return;
+    const auto matrix = to_rec709(*encoding.chromaticities);
+    if (!matrix) return;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+        const glm::dvec3 color = *matrix * glm::dvec3(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]);
+        for (int k = 0; k < 3; ++k) image.rgb[i + static_cast<std::size_t>(k)] = static_cast<float>(color[k]);
+    }
+    image.notes.emplace_back("its colors were taken from its own primaries to Rec.709");
+}
+
+/// Whole numbers in an EXR are indices and counts.
+void check_number_type(const ImageInput& input, const ColorChannels& color) {
+    if (input.format() != "openexr") return;
+    for (const int channel : color.rgb) {
+        if (input.spec().channelformat(channel).is_floating_point()) continue;
+        refuse_file(input.path(),
+                    "holds whole numbers, not light, in its channel " +
+                        input.spec().channelnames[static_cast<std::size_t>(channel)],
+                    "write its colors as half or float");
+    }
 }
 
 void multiply_by_alpha(LinearImage& image) {
@@ -133,35 +131,37 @@ void fill_full_window(LinearImage& image, const OIIO::ImageSpec& spec) {
 
 LinearImage read_image(const std::filesystem::path& path) {
     ImageInput input(path);
-    auto color = find_color(input);
-    while (!color && input.next_part()) color = find_color(input);
+    const ColorChannels color = find_color(input);
+    input.check_size();
+    check_number_type(input, color);
     const OIIO::ImageSpec& spec = input.spec();
-    if (!color) {
-        refuse_file(path, "has no channels R, G and B, nor one alone (first: " + spec.channelnames[0] + ")",
-                    "write it as a color or gray image");
-    }
     LinearImage image;
     image.width = spec.width;
     image.height = spec.height;
-    image.gray = color->rgb[0] == color->rgb[1];
+    image.gray = color.rgb[0] == color.rgb[1];
     image.text = input.text();
-    std::array<int, 4> wanted = {color->rgb[0], color->rgb[1], color->rgb[2],
-                                 color->alpha.value_or(color->rgb[0])};
+    std::array<int, 4> wanted = {color.rgb[0], color.rgb[1], color.rgb[2],
+                                 color.alpha.value_or(color.rgb[0])};
     const auto [low, high] = std::minmax_element(wanted.begin(), wanted.end());
     const int begin = *low;
     const int end = *high + 1;
     const std::vector<float> values = input.read_channels(begin, end);
     const auto stride = static_cast<std::size_t>(end - begin);
     image.rgb.resize(image.pixels() * 3);
-    if (color->alpha) image.alpha.resize(image.pixels());
+    if (color.alpha) image.alpha.resize(image.pixels());
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         for (std::size_t channel = 0; channel < 3; ++channel) {
             image.rgb[3 * i + channel] =
                 values[i * stride + static_cast<std::size_t>(wanted[channel] - begin)];
         }
-        if (color->alpha) image.alpha[i] = values[i * stride + static_cast<std::size_t>(wanted[3] - begin)];
+        if (color.alpha) image.alpha[i] = values[i * stride + static_cast<std::size_t>(wanted[3] - begin)];
     }
-    decode(image, spec);
+    decode(image, encoding_of(image, input, color));
+    if (!color.others.empty()) {
+        std::string names;
+        for (const std::string& name : color.others) names += (names.empty() ? "" : ", ") + name;
+        image.notes.push_back("further layers are not read: " + names);
+    }
     if (spec.get_int_attribute("oiio:UnassociatedAlpha") != 0) multiply_by_alpha(image);
     fill_full_window(image, spec);
     if (std::any_of(image.rgb.begin(), image.rgb.end(), [](float value) { return !std::isfinite(value); })) {

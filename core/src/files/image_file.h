@@ -29,11 +29,12 @@ struct LinearImage {
 };
 
 /// Reads an image of any format that OpenImageIO knows.
-/// - Color: channels R, G, B; else those of the layer named Combined (Blender's multilayer EXR) or of the
-/// only layer;
-///   else one channel as gray. Where several layers could be meant the image is refused.
-/// - Encoding: what the file says of itself; a file that says nothing is linear if it holds floats, sRGB if
-/// integers.
+/// - Color: the only layer of color of all parts, the one named Combined (Blender's multilayer EXR), or the
+///   one whose channels are R, G and B without a prefix; else one channel as gray. Where several layers could
+///   be meant the image is refused; layers left aside are named in the notes.
+/// - Encoding: what the file says of itself (in a PNG cICP, sRGB, gAMA; chromaticities of cHRM and EXR are
+///   converted to Rec.709); a file that says nothing is linear if it holds floats, sRGB if integers. What it
+///   says and is not read (ICC profiles) is named in the notes.
 /// - A data window smaller than the picture (a cropped EXR) is put in its place; outside it is black and
 /// uncovered. Throws FileError where the file is unreadable, truncated, too large or holds a pixel that is
 /// not finite.

@@ -33,7 +33,6 @@ ImageInput::ImageInput(const std::filesystem::path& path) : path_(path) {
         refuse_file(path, "cannot be read as an image (" + one_line(OIIO::geterror()) + ")",
                     "give an image that is whole, such as EXR, PNG, TIFF or JPEG");
     }
-    check_size();
 }
 
 void ImageInput::check_size() const {
@@ -53,18 +52,18 @@ void ImageInput::check_size() const {
     if (spec.depth > 1 || spec.deep) refuse_file(path_, "is a volume or a deep image", "give a flat image");
 }
 
-bool ImageInput::next_part() {
-    if (!input_->seek_subimage(part_ + 1, 0)) {
+bool ImageInput::go_to_part(int part) {
+    if (!input_->seek_subimage(part, 0)) {
         input_->seek_subimage(part_, 0);
         OIIO::geterror();  // the end of the list is no error
         return false;
     }
-    ++part_;
-    check_size();
+    part_ = part;
     return true;
 }
 
 std::vector<float> ImageInput::read_channels(int begin, int end) {
+    check_size();
     const OIIO::ImageSpec& layout = spec();
     const auto channels = static_cast<std::size_t>(end - begin);
     const auto width = static_cast<std::size_t>(layout.width);

@@ -14,13 +14,17 @@ namespace skinglow {
 /// An image file open for reading, its size checked.
 class ImageInput {
   public:
-    /// Throws FileError where the file is no image or too large (max_image_side, max_image_pixels).
+    /// Throws FileError where the file is no image.
     explicit ImageInput(const std::filesystem::path& path);
 
     const OIIO::ImageSpec& spec() const { return input_->spec(); }
     const std::filesystem::path& path() const { return path_; }
-    /// Moves on to the next part of the file; false where there is none.
-    bool next_part();
+    /// Name of the file's format, as OpenImageIO calls it.
+    std::string format() const { return input_->format_name(); }
+    /// Turns to another part of the file; false where there is none.
+    bool go_to_part(int part);
+    /// @throws FileError where the current part is too large or no flat image
+    void check_size() const;
     /// Channels begin to end - 1 of the current part, interleaved, rows from the top.
     /// Throws FileError where the file ends too early or is damaged, or a value is not finite.
     std::vector<float> read_channels(int begin, int end);
@@ -28,8 +32,6 @@ class ImageInput {
     std::map<std::string, std::string> text() const;
 
   private:
-    void check_size() const;
-
     std::filesystem::path path_;
     std::unique_ptr<OIIO::ImageInput> input_;
     int part_ = 0;

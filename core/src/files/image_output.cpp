@@ -1,5 +1,7 @@
 #include "files/image_output.h"
 
+#include <OpenImageIO/filesystem.h>
+
 #include <memory>
 
 #include "files/atomic_file.h"
@@ -7,18 +9,25 @@
 
 namespace skinglow {
 
+std::string image_bytes(const std::filesystem::path& path, OIIO::ImageSpec spec,
+                        const std::map<std::string, std::string>& text, const void* pixels) {
+    for (const auto& [key, value] : text) spec.attribute(key, value);
+    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path.string());
+    if (!output || !output->supports("ioproxy")) {
+        refuse_file(path, "is of a format that cannot be written", "name it .exr or .png");
+    }
+    OIIO::Filesystem::IOVecOutput bytes;
+    if (!output->set_ioproxy(&bytes) || !output->open(path.string(), spec) ||
+        !output->write_image(spec.format, pixels) || !output->close()) {
+        refuse_file(path, "cannot be written (" + output->geterror() + ")", "check the numbers in it");
+    }
+    output.reset();
+    return {bytes.buffer().begin(), bytes.buffer().end()};
+}
+
 void write_image(const std::filesystem::path& path, OIIO::ImageSpec spec,
                  const std::map<std::string, std::string>& text, const void* pixels) {
-    for (const auto& [key, value] : text) spec.attribute(key, value);
-    write_atomically(path, [&](const std::filesystem::path& temporary) {
-        const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(temporary.string());
-        if (!output) refuse_file(path, "is of a format that cannot be written", "name it .exr or .png");
-        if (!output->open(temporary.string(), spec) || !output->write_image(spec.format, pixels) ||
-            !output->close()) {
-            refuse_file(path, "cannot be written (" + output->geterror() + ")",
-                        "check the disk and its free space");
-        }
-    });
+    write_atomically(path, image_bytes(path, std::move(spec), text, pixels));
 }
 
 }  // namespace skinglow

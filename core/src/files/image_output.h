@@ -14,4 +14,8 @@ namespace skinglow {
 void write_image(const std::filesystem::path& path, OIIO::ImageSpec spec,
                  const std::map<std::string, std::string>& text, const void* pixels);
 
+/// The bytes of such a file. @param path  its extension says the format
+std::string image_bytes(const std::filesystem::path& path, OIIO::ImageSpec spec,
+                        const std::map<std::string, std::string>& text, const void* pixels);
+
 }  // namespace skinglow

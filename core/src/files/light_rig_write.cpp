@@ -50,7 +50,7 @@ void write_light_rig(const std::filesystem::path& path, const LightRig& rig) {
     for (const Light& light : rig.lights) object["lights"].push_back(json_of_light(light));
     // A name from a host may hold bytes that are no UTF-8; a rig with a replaced letter beats none.
     const std::string text = object.dump(2, ' ', false, ordered_json::error_handler_t::replace);
-    write_text_atomically(path, text + "\n");
+    write_atomically(path, text + "\n");
 }
 
 }  // namespace skinglow

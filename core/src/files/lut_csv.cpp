@@ -64,7 +64,7 @@ void write_lut_csv(const std::filesystem::path& path, const LutTable& table) {
         text += to_text(axis.thickness_mm(i)) + "," + to_text(color.r) + "," + to_text(color.g) + "," +
                 to_text(color.b) + "\n";
     }
-    write_text_atomically(path, text);
+    write_atomically(path, text);
 }
 
 LutFile read_lut_csv(const std::filesystem::path& path) {

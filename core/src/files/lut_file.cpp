@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "files/atomic_file.h"
 #include "files/image_file.h"
 #include "files/lut_format.h"
 #include "numerics/argument_check.h"
@@ -80,7 +81,7 @@ LutWriteReport write_lut(const std::filesystem::path& path, const LutTable& tabl
     const std::string extension = small_extension(path);
     if (extension == ".png") return write_lut_png(path, table, png);
     if (extension == ".exr") {
-        write_lut_exr(path, table);
+        write_atomically(path, lut_exr_bytes(path, table));
     } else if (extension == ".csv") {
         write_lut_csv(path, table);
     } else {

@@ -43,6 +43,10 @@ struct LutWriteReport {
     std::size_t clamped_texels = 0;  ///< texels with a channel below 0 or above 1 that a PNG could not hold
 };
 
+/// The bytes of the table as an EXR file (float32). @param path  what messages name
+/// @throws FileError on a value beyond float32
+std::string lut_exr_bytes(const std::filesystem::path& path, const LutTable& table);
+
 /// Writes by extension: .exr (float32), .png, .csv (thickness_mm,r,g,b with every digit). Whole or not at
 /// all. Throws FileError on another extension, a value beyond float32 (EXR) or a folder that cannot be
 /// written; std::invalid_argument on an empty or too long table, a color or axis that is not finite, bits

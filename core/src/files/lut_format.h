@@ -22,7 +22,6 @@ std::optional<double> axis_in(const HeaderText& text, const std::filesystem::pat
 /// Names of the nine channels of a table of matrices, row by row.
 std::vector<std::string> matrix_channels();
 
-void write_lut_exr(const std::filesystem::path& path, const LutTable& table);
 LutWriteReport write_lut_png(const std::filesystem::path& path, const LutTable& table, const PngOptions& png);
 void write_lut_csv(const std::filesystem::path& path, const LutTable& table);
 LutFile read_lut_csv(const std::filesystem::path& path);

@@ -44,14 +44,14 @@ OIIO::ImageSpec exr_spec(std::size_t width, int channels) {
 
 }  // namespace
 
-void write_lut_exr(const std::filesystem::path& path, const LutTable& table) {
+std::string lut_exr_bytes(const std::filesystem::path& path, const LutTable& table) {
     std::vector<float> pixels;
     pixels.reserve(table.colors.size() * 3);
     for (std::size_t i = 0; i < table.colors.size(); ++i) {
         for (int channel = 0; channel < 3; ++channel)
             pixels.push_back(to_float(table.colors[i][channel], path, i));
     }
-    write_image(path, exr_spec(table.colors.size(), 3), to_header_text(table.record), pixels.data());
+    return image_bytes(path, exr_spec(table.colors.size(), 3), to_header_text(table.record), pixels.data());
 }
 
 std::size_t count_clamped(const LutTable& table) {

@@ -1,224 +1,156 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <charconv>
 #include <cstdint>
-#include <cstring>
-#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "files/mesh_builder.h"
+#include "files/ply_header.h"
 
 namespace skinglow {
 namespace {
 
-enum class Coding { text, little_endian, big_endian };
-
-struct NumberType {
-    std::string_view name;
-    std::size_t size;
-    double (*load)(const char* bytes);  // of the machine's own byte order
-};
-
-template <class Number>
-double load_number(const char* bytes) {
-    Number number{};
-    std::memcpy(&number, bytes, sizeof number);
-    return static_cast<double>(number);
-}
-
-// Names by G. Turk, "The PLY polygon file format" (1994), and the sized ones that came into use later.
-constexpr std::array number_types = {
-    NumberType{"char", 1, load_number<std::int8_t>},     NumberType{"int8", 1, load_number<std::int8_t>},
-    NumberType{"uchar", 1, load_number<std::uint8_t>},   NumberType{"uint8", 1, load_number<std::uint8_t>},
-    NumberType{"short", 2, load_number<std::int16_t>},   NumberType{"int16", 2, load_number<std::int16_t>},
-    NumberType{"ushort", 2, load_number<std::uint16_t>}, NumberType{"uint16", 2, load_number<std::uint16_t>},
-    NumberType{"int", 4, load_number<std::int32_t>},     NumberType{"int32", 4, load_number<std::int32_t>},
-    NumberType{"uint", 4, load_number<std::uint32_t>},   NumberType{"uint32", 4, load_number<std::uint32_t>},
-    NumberType{"float", 4, load_number<float>},          NumberType{"float32", 4, load_number<float>},
-    NumberType{"double", 8, load_number<double>},        NumberType{"float64", 8, load_number<double>}};
-
-struct Property {
-    std::string name;
-    NumberType type;
-    std::optional<NumberType> count_type;  // of a list
-};
-
-struct Element {
-    std::string name;
-    std::size_t count = 0;
-    std::vector<Property> properties;
-};
+constexpr double strip_end = -1.0;  // a triangle strip begins anew after it
 
 class PlyReader {
   public:
     explicit PlyReader(const std::filesystem::path& path)
-        : path_(path), content_(read_whole_file(path, max_mesh_bytes)), rest_(content_), builder_(path) {
-        read_header();
-        for (const Element& element : elements_) {
-            for (std::size_t i = 0; i < element.count; ++i) read_entry(element, i);
+        : path_(path),
+          content_(read_whole_file(path, max_mesh_bytes)),
+          header_(read_ply_header(path, content_)),
+          rest_(std::string_view(content_).substr(header_.size)),
+          builder_(path) {
+        for (const PlyElement& element : header_.elements) {
+            element_ = &element;
+            begin(element);
+            for (index_ = 0; index_ < element.count; ++index_) read_entry(element);
         }
     }
     TriangleMesh take() { return builder_.take(); }
 
   private:
-    [[noreturn]] void refuse(const std::string& what, const std::string& where) const {
-        refuse_file(path_, what, damaged_mesh_remedy, where);
+    enum class Kind { other, vertices, faces, strips };
+
+    [[noreturn]] void refuse(const std::string& what) const {
+        refuse_file(path_, what, damaged_mesh_remedy, element_->name + " " + std::to_string(index_));
     }
 
-    std::string_view take_word(std::string_view& line) const {
-        line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
-        const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
-        line.remove_prefix(word.size());
-        return word;
-    }
-
-    NumberType number_type(std::string_view name, const std::string& where) const {
-        const auto found = std::find_if(number_types.begin(), number_types.end(),
-                                        [&](const NumberType& type) { return type.name == name; });
-        if (found == number_types.end()) refuse("has the unknown type \"" + std::string(name) + "\"", where);
-        return *found;
-    }
-
-    void read_header() {
-        bool has_format = false;
-        for (std::size_t line_number = 1;; ++line_number) {
-            const std::size_t length = rest_.find('\n');
-            const std::string where = "line " + std::to_string(line_number);
-            if (length == std::string_view::npos) refuse("ends within its header", where);
-            std::string_view line = rest_.substr(0, length);
-            rest_.remove_prefix(length + 1);
-            const std::string_view word = take_word(line);
-            if (line_number == 1 && word != "ply") refuse("is not a PLY file", where);
-            if (word == "end_header") break;
-            if (word == "format") {
-                read_format(take_word(line), where);
-                has_format = true;
-            } else if (word == "element") {
-                read_element(line, where);
-            } else if (word == "property") {
-                read_property(line, where);
-            }  // else a comment
+    void begin(const PlyElement& element) {
+        kind_ = element.name == "vertex"      ? Kind::vertices
+                : element.name == "face"      ? Kind::faces
+                : element.name == "tristrips" ? Kind::strips
+                                              : Kind::other;
+        if (kind_ == Kind::vertices) {
+            constexpr std::array names = {"x", "y", "z"};
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto found = element.scalar(names[i]);
+                if (!found) {
+                    refuse_file(path_,
+                                "has vertices without " + std::string(names[i]) + ": no body, no far side",
+                                "export it anew with x, y and z", "header");
+                }
+                coordinates_[i] = *found;
+            }
         }
-        if (!has_format) refuse("names no format", "header");
-        for (const Element& element : elements_) {
-            // Without this a count of 1e18 of nothing would run for ever.
-            if (element.properties.empty() && element.count > 0)
-                refuse("has an element without properties", element.name);
-        }
+        // Counts in a damaged header may be anything; what follows cannot be more than there are bytes.
+        const std::size_t bytes = std::max<std::size_t>(element.size, 1);
+        if (kind_ == Kind::vertices) builder_.reserve(std::min(element.count, rest_.size() / bytes), 0);
+        if (kind_ == Kind::faces) builder_.reserve(0, std::min(element.count, rest_.size() / 4));
     }
 
-    void read_format(std::string_view name, const std::string& where) {
-        if (name == "ascii") {
-            coding_ = Coding::text;
-        } else if (name == "binary_little_endian") {
-            coding_ = Coding::little_endian;
-        } else if (name == "binary_big_endian") {
-            coding_ = Coding::big_endian;
-        } else {
-            refuse("has the unknown format \"" + std::string(name) + "\"", where);
+    void read_entry(const PlyElement& element) {
+        values_.resize(element.properties.size());
+        for (std::size_t i = 0; i < element.properties.size(); ++i) {
+            const PlyProperty& property = element.properties[i];
+            if (property.count_type) {
+                read_list(property);
+            } else {
+                values_[i] = take_number(property.type);
+            }
+        }
+        if (kind_ == Kind::vertices) {
+            builder_.add_vertex(
+                {values_[coordinates_[0]], values_[coordinates_[1]], values_[coordinates_[2]]});
         }
     }
 
-    void read_element(std::string_view line, const std::string& where) {
-        Element element;
-        element.name = take_word(line);
-        const std::string_view count = take_word(line);
-        const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
-        if (error != std::errc() || end != count.data() + count.size())
-            refuse("has a count that is no number", where);
-        elements_.push_back(std::move(element));
-    }
-
-    void read_property(std::string_view line, const std::string& where) {
-        if (elements_.empty()) refuse("has a property of no element", where);
-        std::string_view type = take_word(line);
-        std::optional<NumberType> count_type;
-        if (type == "list") {
-            count_type = number_type(take_word(line), where);
-            type = take_word(line);
+    void read_list(const PlyProperty& property) {
+        const double count = take_number(*property.count_type);
+        if (!(count >= 0.0)) refuse("has a list of no length");
+        const bool wanted = (kind_ == Kind::faces || kind_ == Kind::strips) &&
+                            (property.name == "vertex_indices" || property.name == "vertex_index");
+        corners_.clear();
+        const auto entries = static_cast<std::uint64_t>(std::min(count, 1e15));  // any file ends before
+        for (std::uint64_t i = 0; i < entries; ++i) {
+            const double value = take_number(property.type);
+            if (!wanted) continue;
+            if (kind_ == Kind::strips && value == strip_end) {
+                add_strip();
+                continue;
+            }
+            if (!(value >= 0.0 && value < 4294967295.0)) refuse("has a vertex that does not exist");
+            corners_.push_back(static_cast<std::uint32_t>(value));
         }
-        const NumberType value_type = number_type(type, where);
-        elements_.back().properties.push_back({std::string(take_word(line)), value_type, count_type});
+        if (!wanted) return;
+        if (kind_ == Kind::strips) {
+            add_strip();
+        } else if (corners_.size() >= 3) {
+            builder_.add_face(corners_);
+        }
     }
 
-    double take_number(const NumberType& type, const std::string& where) {
-        return coding_ == Coding::text ? take_text_number(where) : take_binary_number(type, where);
+    /// Every other triangle of a strip is wound the other way.
+    void add_strip() {
+        for (std::size_t i = 2; i < corners_.size(); ++i) {
+            const std::size_t odd = i % 2;
+            builder_.add_face(std::array{corners_[i - 2 + odd], corners_[i - 1 - odd], corners_[i]});
+        }
+        corners_.clear();
     }
 
-    double take_text_number(const std::string& where) {
-        rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r\n"), rest_.size()));
+    double take_number(const PlyType& type) {
+        if (header_.coding == PlyCoding::text) return take_text_number();
+        if (rest_.size() < type.size) refuse("ends too early");
+        const char* bytes = rest_.data();
+        rest_.remove_prefix(type.size);
+        return header_.coding == PlyCoding::little_endian ? type.load_little(bytes) : type.load_big(bytes);
+    }
+
+    double take_text_number() {
+        constexpr std::string_view blanks = " \t\r\n\v\f";
+        rest_.remove_prefix(std::min(rest_.find_first_not_of(blanks), rest_.size()));
         if (rest_.starts_with('+')) rest_.remove_prefix(1);
         double number = 0.0;
-        const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), number);
-        if (rest_.empty()) refuse("ends too early", where);
-        if (error != std::errc()) refuse("has a value that is no number", where);
+        const char* const last = rest_.data() + rest_.size();
+        const auto [end, error] = std::from_chars(rest_.data(), last, number);
+        if (rest_.empty()) refuse("ends too early");
+        if (error != std::errc() || (end != last && blanks.find(*end) == std::string_view::npos)) {
+            refuse("has a value that is no number");
+        }
         rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
         return number;
     }
 
-    double take_binary_number(const NumberType& type, const std::string& where) {
-        if (rest_.size() < type.size) refuse("ends too early", where);
-        std::array<char, 8> bytes{};
-        std::copy_n(rest_.data(), type.size, bytes.data());
-        const bool file_is_little = coding_ == Coding::little_endian;
-        if (file_is_little != (std::endian::native == std::endian::little)) {
-            std::reverse(bytes.data(), bytes.data() + type.size);
-        }
-        rest_.remove_prefix(type.size);
-        return type.load(bytes.data());
-    }
-
-    void read_entry(const Element& element, std::size_t index) {
-        const std::string where = element.name + " " + std::to_string(index);
-        glm::dvec3 position{0.0};
-        for (const Property& property : element.properties) {
-            if (property.count_type) {
-                read_list(element, property, where);
-                continue;
-            }
-            const double value = take_number(property.type, where);
-            if (property.name == "x") position.x = value;
-            if (property.name == "y") position.y = value;
-            if (property.name == "z") position.z = value;
-        }
-        if (element.name == "vertex") vertices_.push_back(builder_.add_vertex(position));
-    }
-
-    void read_list(const Element& element, const Property& property, const std::string& where) {
-        const double count = take_number(*property.count_type, where);
-        if (!(count >= 0.0)) refuse("has a list of no length", where);
-        const bool is_face =
-            element.name == "face" && (property.name == "vertex_indices" || property.name == "vertex_index");
-        corners_.clear();
-        const auto entries = static_cast<std::uint64_t>(std::min(count, 1e15));  // any file ends before
-        for (std::uint64_t i = 0; i < entries; ++i) {
-            const double value = take_number(property.type, where);
-            if (!is_face) continue;
-            if (!(value >= 0.0 && value < static_cast<double>(vertices_.size()))) {
-                refuse("has a vertex that does not exist", where);
-            }
-            corners_.push_back(vertices_[static_cast<std::size_t>(value)]);
-        }
-        for (std::size_t i = 2; i < corners_.size(); ++i)
-            builder_.add_triangle(corners_[0], corners_[i - 1], corners_[i]);
-    }
-
     const std::filesystem::path& path_;
     std::string content_;
+    PlyHeader header_;
     std::string_view rest_;
     MeshBuilder builder_;
-    Coding coding_ = Coding::text;
-    std::vector<Element> elements_;
-    std::vector<std::uint32_t> vertices_;  // of the file, as vertices of the mesh
-    std::vector<std::uint32_t> corners_;   // of one polygon
+    const PlyElement* element_ = nullptr;
+    std::size_t index_ = 0;
+    Kind kind_ = Kind::other;
+    std::array<std::size_t, 3> coordinates_{};
+    std::vector<double> values_;          // the scalars of one element, by property
+    std::vector<std::uint32_t> corners_;  // of one polygon or strip
 };
 
 }  // namespace
 
-TriangleMesh read_ply(const std::filesystem::path& path) {
-    return PlyReader(path).take();
+MeshFile read_ply(const std::filesystem::path& path) {
+    MeshFile file;
+    file.mesh = PlyReader(path).take();
+    return file;
 }
 
 }  // namespace skinglow

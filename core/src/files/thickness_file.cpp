@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <string>
@@ -13,8 +15,9 @@ namespace {
 /// The number's bytes, lowest first, whatever the machine's own order.
 template <class Number>
 void append_little_endian(std::string& bytes, Number number) {
-    const auto bits = std::bit_cast<std::uint32_t>(number);
-    for (unsigned shift = 0; shift < 32; shift += 8) bytes += static_cast<char>((bits >> shift) & 0xFFU);
+    auto raw = std::bit_cast<std::array<char, sizeof(Number)>>(number);
+    if constexpr (std::endian::native == std::endian::big) std::reverse(raw.begin(), raw.end());
+    bytes.append(raw.data(), raw.size());
 }
 
 std::string csv_text(const TriangleMesh& mesh, std::span<const double> thickness_mm, double unit_mm) {
@@ -32,12 +35,12 @@ std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> thicknes
     std::string bytes =
         "ply\nformat binary_little_endian 1.0\ncomment skinglow: one unit is " + to_text(unit_mm) +
         " mm\nelement vertex " + std::to_string(mesh.vertices().size()) +
-        "\nproperty float x\nproperty float y\nproperty float z\nproperty float thickness_mm\n"
+        "\nproperty double x\nproperty double y\nproperty double z\nproperty float thickness_mm\n"
         "element face " +
         std::to_string(mesh.triangles().size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
     for (std::size_t i = 0; i < mesh.vertices().size(); ++i) {
-        for (int axis = 0; axis < 3; ++axis)
-            append_little_endian(bytes, static_cast<float>(mesh.vertices()[i][axis]));
+        // Far from the origin float32 would join what lies apart.
+        for (int axis = 0; axis < 3; ++axis) append_little_endian(bytes, mesh.vertices()[i][axis]);
         append_little_endian(bytes, static_cast<float>(thickness_mm[i]));
     }
     for (const glm::uvec3& triangle : mesh.triangles()) {
@@ -60,9 +63,9 @@ void write_thickness(const std::filesystem::path& path, const TriangleMesh& mesh
     }
     const std::string extension = small_extension(path);
     if (extension == ".csv") {
-        write_text_atomically(path, csv_text(mesh, thickness_mm, unit_mm));
+        write_atomically(path, csv_text(mesh, thickness_mm, unit_mm));
     } else if (extension == ".ply") {
-        write_text_atomically(path, ply_bytes(mesh, thickness_mm, unit_mm));
+        write_atomically(path, ply_bytes(mesh, thickness_mm, unit_mm));
     } else {
         refuse_file(path, "is of a kind that cannot hold thickness", "name it .csv or .ply");
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <string>
 
 #include "geometry/vector.h"
@@ -70,6 +71,9 @@ std::vector<std::uint8_t> dark_triangles(const WeldedMesh& mesh, const RayScene&
     return dark;
 }
 
+/// What `measure` returns where no ray finds a way out.
+constexpr double no_exit = std::numeric_limits<double>::infinity();
+
 /// Thickness at a welded vertex, in edges of the unit box.
 /// @param samples  scratch memory, kept between calls
 double measure(const WeldedMesh& mesh, const RayScene& scene, std::span<const std::uint8_t> dark,
@@ -77,7 +81,7 @@ double measure(const WeldedMesh& mesh, const RayScene& scene, std::span<const st
                std::vector<WeightedValue>& samples) {
     const double max_diameter = mesh.diagonal() / mesh.scale();
     const glm::dvec3 inward = -mesh.vertex_normal(welded);
-    if (inward == glm::dvec3(0)) return max_diameter;
+    if (inward == glm::dvec3(0)) return no_exit;
     const glm::dmat3 frame = frame_around(inward);
     samples.clear();
     for (const glm::dvec3& local : directions) {
@@ -96,7 +100,7 @@ double measure(const WeldedMesh& mesh, const RayScene& scene, std::span<const st
     }
     // Of inverses, so that where the cone sees a thin and a thick side at once (the rim of an ear) the thin
     // one, through which light would come, decides.
-    return samples.empty() ? max_diameter : 1.0 / interquartile_mean(samples);
+    return samples.empty() ? no_exit : 1.0 / interquartile_mean(samples);
 }
 
 std::vector<double> measure_all(const WeldedMesh& mesh, const RayScene& scene,
@@ -120,15 +124,26 @@ std::vector<double> measure_all(const WeldedMesh& mesh, const RayScene& scene,
 
 }  // namespace
 
+double ThicknessReport::no_far_side_fraction() const {
+    const auto count = std::count(no_far_side.begin(), no_far_side.end(), 1);
+    return no_far_side.empty() ? 0.0 : static_cast<double>(count) / static_cast<double>(no_far_side.size());
+}
+
 std::vector<double> thickness(const MeshView& mesh, const ThicknessOptions& options,
                               const ThicknessProgress& progress) {
+    return thickness_report(mesh, options, progress).mm;
+}
+
+ThicknessReport thickness_report(const MeshView& mesh, const ThicknessOptions& options,
+                                 const ThicknessProgress& progress) {
     validate(options);
     if (mesh.triangles().empty() && !mesh.vertices().empty())
         refuse_argument("triangles", "empty", "at least one triangle, or no vertices either");
     const WeldedMesh body(mesh);
     if (!std::isfinite(body.diagonal() * options.unit_mm))
         refuse_argument("unit_mm", to_text(options.unit_mm), "a mesh below the largest double in mm");
-    std::vector<double> result(mesh.vertices().size(), 0.0);
+    const std::size_t count = mesh.vertices().size();
+    ThicknessReport result{std::vector<double>(count, 0.0), std::vector<std::uint8_t>(count, 1)};
     if (body.scale() > 0) {  // else every vertex is at one point, and the box has no diagonal
         const RayScene scene(body);
         const bool has_dark = options.min_sky_visibility > 0;
@@ -140,9 +155,11 @@ std::vector<double> thickness(const MeshView& mesh, const ThicknessOptions& opti
         const auto welded =
             measure_all(body, scene, dark, options, {progress, dark_end, 1.0, body.positions().size()});
         // No welded value is above the box's diagonal; the minimum takes back what rounding may have added.
-        for (std::size_t i = 0; i < result.size(); ++i)
-            result[i] =
-                std::min(welded[body.welded_of()[i]] * body.scale(), body.diagonal()) * options.unit_mm;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double value = welded[body.welded_of()[i]];
+            result.mm[i] = std::min(value * body.scale(), body.diagonal()) * options.unit_mm;
+            result.no_far_side[i] = value == no_exit ? 1 : 0;
+        }
     }
     if (progress && !progress(1.0)) throw ThicknessCancelled();
     return result;

@@ -33,9 +33,12 @@ std::string small_extension(const std::filesystem::path& path) {
 }
 
 std::string read_whole_file(const std::filesystem::path& path, std::size_t max_bytes) {
-    // A folder opens as a stream and fails only when read, with a text that helps nobody.
-    if (std::error_code ignored; std::filesystem::is_directory(path, ignored)) {
+    std::error_code ignored;
+    // A folder opens as a stream and fails only when read, with a text that helps nobody; a pipe waits for a writer.
+    if (std::filesystem::is_directory(path, ignored))
         refuse_file(path, "is a folder", "give the name of a file");
+    if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) {
+        refuse_file(path, "is a pipe or a device", "give the name of a file");
     }
     errno = 0;
     std::ifstream stream(path, std::ios::binary);
@@ -43,6 +46,7 @@ std::string read_whole_file(const std::filesystem::path& path, std::size_t max_b
         refuse_file(path, "cannot be read: " + system_error_text(errno),
                     "check the name and the permissions");
     std::string text;
+    text.reserve(std::min<std::uintmax_t>(std::filesystem::file_size(path, ignored), max_bytes));
     std::string block(std::size_t{1} << 16U, '\0');
     while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0) {
         text.append(block, 0, static_cast<std::size_t>(stream.gcount()));

@@ -239,7 +239,7 @@ def check_a_mesh_edited_while_measured_keeps_what_it_had(_work):
     obj = skin_ball()
     before = thickness_of(obj)
     geometry = thickness_attribute.read_geometry(obj, bpy.context.scene)
-    values = Measuring({obj.name: geometry}).wait()[obj.name]
+    values, _no_far_side = Measuring({obj.name: geometry}).wait()[obj.name]
     obj.data.vertices[0].co.z += 1.0
     try:
         thickness_attribute.store_measured(obj, bpy.context.scene, geometry, values * 2.0)

@@ -1,0 +1,156 @@
+#include "files/ply_header.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "files/mesh_builder.h"
+#include "files/number_bytes.h"
+
+namespace skinglow {
+namespace {
+
+template <class Number>
+constexpr PlyType type_of(std::string_view name) {
+    return {name, sizeof(Number), load_number<Number, false>, load_number<Number, true>};
+}
+
+constexpr std::array types = {
+    type_of<std::int8_t>("char"),     type_of<std::int8_t>("int8"),     type_of<std::uint8_t>("uchar"),
+    type_of<std::uint8_t>("uint8"),   type_of<std::int16_t>("short"),   type_of<std::int16_t>("int16"),
+    type_of<std::uint16_t>("ushort"), type_of<std::uint16_t>("uint16"), type_of<std::int32_t>("int"),
+    type_of<std::int32_t>("int32"),   type_of<std::uint32_t>("uint"),   type_of<std::uint32_t>("uint32"),
+    type_of<float>("float"),          type_of<float>("float32"),        type_of<double>("double"),
+    type_of<double>("float64")};
+
+class HeaderReader {
+  public:
+    HeaderReader(const std::filesystem::path& path, std::string_view content)
+        : path_(path), content_(content), rest_(content) {}
+
+    PlyHeader read() {
+        bool has_format = false;
+        if (take_line() && take_word() != "ply") refuse("is not a PLY file");
+        for (;;) {
+            if (!take_line()) refuse("ends within its header");
+            const std::string_view word = take_word();
+            if (word == "end_header") break;
+            if (word == "format") {
+                read_format();
+                has_format = true;
+            } else if (word == "element") {
+                read_element();
+            } else if (word == "property") {
+                read_property();
+            }  // else a comment
+        }
+        if (!has_format) refuse_file(path_, "names no format", damaged_mesh_remedy, "header");
+        for (const PlyElement& element : header_.elements) {
+            // Without this a count of 1e18 of nothing would run for ever.
+            if (element.properties.empty() && element.count > 0) {
+                refuse_file(path_, "has an element without properties", damaged_mesh_remedy, element.name);
+            }
+        }
+        header_.size = content_.size() - rest_.size();
+        return std::move(header_);
+    }
+
+  private:
+    [[noreturn]] void refuse(const std::string& what) const {
+        refuse_file(path_, what, damaged_mesh_remedy, "line " + std::to_string(line_number_));
+    }
+
+    /// Lines end as the first one does: by \n, also after \r, or by \r alone.
+    bool take_line() {
+        if (++line_number_ == 1) {
+            const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+            if (rest_.substr(end).starts_with('\r') && !rest_.substr(end).starts_with("\r\n"))
+                line_end_ = '\r';
+        }
+        const std::size_t length = rest_.find(line_end_);
+        if (length == std::string_view::npos) {
+            line_ = rest_;
+            return line_number_ == 1;
+        }
+        line_ = rest_.substr(0, length);
+        rest_.remove_prefix(length + 1);
+        return true;
+    }
+
+    std::string_view take_word() {
+        line_.remove_prefix(std::min(line_.find_first_not_of(" \t\r"), line_.size()));
+        const std::string_view word = line_.substr(0, line_.find_first_of(" \t\r"));
+        line_.remove_prefix(word.size());
+        return word;
+    }
+
+    PlyType take_type() {
+        const std::string_view name = take_word();
+        const auto* found =
+            std::find_if(types.begin(), types.end(), [&](const PlyType& type) { return type.name == name; });
+        if (found == types.end()) refuse("has the unknown type \"" + std::string(name) + "\"");
+        return *found;
+    }
+
+    void read_format() {
+        const std::string_view name = take_word();
+        if (name == "ascii") {
+            header_.coding = PlyCoding::text;
+        } else if (name == "binary_little_endian") {
+            header_.coding = PlyCoding::little_endian;
+        } else if (name == "binary_big_endian") {
+            header_.coding = PlyCoding::big_endian;
+        } else {
+            refuse("has the unknown format \"" + std::string(name) + "\"");
+        }
+    }
+
+    void read_element() {
+        PlyElement element;
+        element.name = take_word();
+        const std::string_view count = take_word();
+        const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
+        if (error != std::errc() || end != count.data() + count.size())
+            refuse("has a count that is no number");
+        header_.elements.push_back(std::move(element));
+    }
+
+    void read_property() {
+        if (header_.elements.empty()) refuse("has a property of no element");
+        PlyElement& element = header_.elements.back();
+        const std::string_view before = line_;
+        std::optional<PlyType> count_type;
+        if (take_word() == "list") {
+            count_type = take_type();
+            element.has_list = true;
+        } else {
+            line_ = before;
+        }
+        const PlyType type = take_type();
+        if (!count_type) element.size += type.size;
+        element.properties.push_back({std::string(take_word()), type, count_type});
+    }
+
+    const std::filesystem::path& path_;
+    std::string_view content_;
+    std::string_view rest_;
+    std::string_view line_;
+    char line_end_ = '\n';
+    std::size_t line_number_ = 0;
+    PlyHeader header_;
+};
+
+}  // namespace
+
+std::optional<std::size_t> PlyElement::scalar(std::string_view property) const {
+    for (std::size_t i = 0; i < properties.size(); ++i) {
+        if (properties[i].name == property && !properties[i].count_type) return i;
+    }
+    return std::nullopt;
+}
+
+PlyHeader read_ply_header(const std::filesystem::path& path, std::string_view content) {
+    return HeaderReader(path, content).read();
+}
+
+}  // namespace skinglow

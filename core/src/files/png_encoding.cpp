@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <map>
+
+#include "files/color_encoding.h"
+#include "files/number_bytes.h"
+#include "rig_files/file_error.h"
+
+namespace skinglow {
+namespace {
+
+using Transfer = ColorEncoding::Transfer;
+
+constexpr Chromaticities rec2020 = {0.708, 0.292, 0.170, 0.797, 0.131, 0.046, 0.3127, 0.3290};
+constexpr Chromaticities display_p3 = {0.680, 0.320, 0.265, 0.690, 0.150, 0.060, 0.3127, 0.3290};
+
+std::uint32_t big_word(const std::string& bytes, std::size_t at) {
+    return static_cast<std::uint32_t>(load_number<std::uint32_t, true>(bytes.data() + at));
+}
+
+/// The chunks about color that stand before the pixels, by name.
+std::map<std::string, std::string> color_chunks(const std::filesystem::path& path) {
+    std::map<std::string, std::string> chunks;
+    std::ifstream file(path, std::ios::binary);
+    std::string start(8, '\0');
+    if (!file.read(start.data(), 8) || start != "\x89PNG\r\n\x1a\n") return chunks;
+    while (file.read(start.data(), 8)) {
+        const std::uint32_t size = big_word(start, 0);
+        const std::string name = start.substr(4);
+        if (name == "IDAT" || name == "IEND") break;
+        if (name != "cICP" && name != "iCCP" && name != "sRGB" && name != "gAMA" && name != "cHRM") {
+            file.seekg(std::streamoff{size} + 4, std::ios::cur);
+            continue;
+        }
+        std::string data(std::min<std::uint32_t>(size, 128),
+                         '\0');  // an ICC profile's name stands at its start
+        file.read(data.data(), static_cast<std::streamsize>(data.size()));
+        file.seekg(std::streamoff{size} - static_cast<std::streamoff>(data.size()) + 4, std::ios::cur);
+        chunks[name] = data;
+    }
+    return chunks;
+}
+
+/// Coding-independent code points: ITU-T H.273.
+ColorEncoding read_cicp(const std::filesystem::path& path, const std::string& data) {
+    constexpr const char* remedy = "write it as EXR, or as PNG in sRGB";
+    const auto primaries = static_cast<unsigned char>(data[0]);
+    const auto transfer = static_cast<unsigned char>(data[1]);
+    ColorEncoding encoding;
+    switch (transfer) {
+        case 2:
+        case 13:
+            encoding.transfer = Transfer::srgb;
+            break;
+        case 4:
+            encoding.transfer = Transfer::gamma;
+            encoding.gamma = 2.2;
+            break;
+        case 5:
+            encoding.transfer = Transfer::gamma;
+            encoding.gamma = 2.8;
+            break;
+        case 8:
+            encoding.transfer = Transfer::linear;
+            break;
+        default:
+            refuse_file(path,
+                        "is encoded by transfer function " + std::to_string(transfer) + " of H.273" +
+                            (transfer == 16   ? " (PQ)"
+                             : transfer == 18 ? " (HLG)"
+                                              : "") +
+                            ", which is not read",
+                        remedy, "chunk cICP");
+    }
+    switch (primaries) {
+        case 1:
+        case 2:
+            break;
+        case 9:
+            encoding.chromaticities = rec2020;
+            break;
+        case 12:
+            encoding.chromaticities = display_p3;
+            break;
+        default:
+            refuse_file(path,
+                        "has the primaries " + std::to_string(primaries) + " of H.273, which are not read",
+                        remedy, "chunk cICP");
+    }
+    return encoding;
+}
+
+/// Whether a profile's name says that it is of sRGB.
+bool is_srgb_profile(const std::string& name) {
+    return name.find("sRGB") != std::string::npos;
+}
+
+}  // namespace
+
+std::optional<ColorEncoding> read_png_encoding(const std::filesystem::path& path) {
+    const auto chunks = color_chunks(path);
+    const auto chunk = [&](const char* name, std::size_t size) -> const std::string* {
+        const auto found = chunks.find(name);
+        return found != chunks.end() && found->second.size() >= size ? &found->second : nullptr;
+    };
+    if (const auto* cicp = chunk("cICP", 4)) return read_cicp(path, *cicp);
+    ColorEncoding encoding;
+    if (const auto* profile = chunk("iCCP", 1)) {
+        const std::string name = profile->substr(0, profile->find('\0'));
+        if (!is_srgb_profile(name))
+            encoding.note = "its ICC profile \"" + name + "\" is not read; it is taken as sRGB";
+        return encoding;
+    }
+    if (chunk("sRGB", 1) != nullptr) return encoding;
+    const auto* gamma = chunk("gAMA", 4);
+    const auto* chromaticities = chunk("cHRM", 32);
+    if (chromaticities != nullptr) {
+        constexpr std::array order = {6, 7, 0, 1, 2, 3, 4, 5};  // the file has white first
+        Chromaticities values{};
+        for (std::size_t i = 0; i < 8; ++i) {
+            values[static_cast<std::size_t>(order[i])] = big_word(*chromaticities, 4 * i) / 100000.0;
+        }
+        encoding.chromaticities = values;
+    }
+    if (gamma != nullptr && big_word(*gamma, 0) > 0) {
+        const double exponent = 100000.0 / big_word(*gamma, 0);
+        encoding.transfer = std::abs(exponent - 1.0) < 0.01 ? Transfer::linear : Transfer::gamma;
+        encoding.gamma = exponent;
+    } else if (chromaticities == nullptr) {
+        return std::nullopt;
+    }
+    return encoding;
+}
+
+}  // namespace skinglow
