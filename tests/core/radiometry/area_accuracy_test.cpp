@@ -109,6 +109,53 @@ class Cubature {
     double allowed_ = 0;
 };
 
+/// A thin light by brute force: the midpoint rule along it (the sine of the variable takes the ends), Gauss's rule across
+/// what is above the horizon and within the beam. In closed form nowhere, adaptive nowhere.
+double by_strips(const AreaEmitter& light, const glm::dvec3& point, const glm::dvec3& normal) {
+    constexpr int strips = 200000;
+    // 8 points (Abramowitz and Stegun, Table 25.4).
+    constexpr std::array<double, 4> node = {0.183434642495650, 0.525532409916329, 0.796666477413627,
+                                            0.960289856497536};
+    constexpr std::array<double, 4> weight = {0.362683783378362, 0.313706645877887, 0.222381034453374,
+                                              0.101228536290376};
+    const double beam = light.spreads() ? std::tan(light.half_spread()) * point.z : 1e300;
+    const double begin = std::max(-light.half_x(), point.x - beam);
+    const double end = std::min(light.half_x(), point.x + beam);
+    if (!(end > begin)) return 0.0;
+    double sum = 0;
+    for (int i = 0; i < strips; ++i) {
+        const double angle = pi * ((i + 0.5) / strips - 0.5);
+        const double on_light = 0.5 * (begin + end) + 0.5 * (end - begin) * std::sin(angle);
+        const double x = on_light - point.x;
+        const double ratio = on_light / light.half_x();
+        const bool is_ellipse = light.shape() == AreaShape::ellipse;
+        const double width = light.half_y() * (is_ellipse ? std::sqrt((1 - ratio) * (1 + ratio)) : 1.0);
+        const double rim = light.spreads() ? std::sqrt(std::max(0.0, beam * beam - x * x)) : 1e300;
+        double from = std::max(-width - point.y, -rim);
+        double to = std::min(width - point.y, rim);
+        const double horizon = (normal.z * point.z - normal.x * x) / normal.y;
+        (normal.y > 0 ? from : to) = std::clamp(horizon, from, std::max(from, to));
+        if (!(to > from)) continue;
+        // In pieces about the nearest point, where the integrand is steepest.
+        const double near = std::clamp(0.0, from, to);
+        const std::array<double, 5> cuts = {from, 0.75 * near + 0.25 * from, near, 0.75 * near + 0.25 * to,
+                                            to};
+        double strip = 0;
+        for (std::size_t piece = 0; piece + 1 < cuts.size(); ++piece) {
+            const double half = 0.5 * (cuts[piece + 1] - cuts[piece]);
+            for (std::size_t k = 0; k < 8 && half > 0; ++k) {
+                const double t = k < 4 ? node[k] : -node[k - 4];
+                const glm::dvec3 offset(x, 0.5 * (cuts[piece] + cuts[piece + 1]) + half * t, -point.z);
+                const double distance_sq = glm::dot(offset, offset);
+                strip += half * weight[k % 4] * light.gain(std::hypot(offset.x, offset.y) / point.z) *
+                         point.z * std::max(0.0, glm::dot(normal, offset)) / (distance_sq * distance_sq);
+            }
+        }
+        sum += strip * std::cos(angle);
+    }
+    return sum * 0.5 * (end - begin) * pi / strips;
+}
+
 /// Near and far, over the light, beside it and nearly in its plane; facing it, or cut by the horizon.
 void compare(RandomScene& random, AreaShape shape, double aspect) {
     const double spread = random.one_in(2) ? pi : random.decades(0.1, 3.1);
@@ -119,7 +166,8 @@ void compare(RandomScene& random, AreaShape shape, double aspect) {
     const glm::dvec3 target(random.between(-1, 1), random.between(-aspect, aspect), 0);
     const glm::dvec3 normal =
         glm::normalize(random.unit_vector() * random.between(0, 1.2) + glm::normalize(target - point));
-    const double expected = Cubature(light, point, normal).integral();
+    const double expected =
+        light.half_y() <= 0.01 ? by_strips(light, point, normal) : Cubature(light, point, normal).integral();
     const double scale = std::min(pi, light.area() * light.axis_gain() / glm::dot(point, point));
     for (const double asked : {1e-3, 1e-5, 1e-7}) {
         const double found = light.irradiance(point, normal, asked);
@@ -145,7 +193,7 @@ TEST(AreaIrradiance, ToleranceIsKept) {
 TEST(AreaIrradiance, HoweverThin) {
     RandomScene random(3);
     for (const double aspect : {9e-3, 1e-3, 3e-4, 9e-5, 1e-6, 1e-8}) {
-        for (int i = 0; i < 2; ++i) {
+        for (int i = 0; i < 3; ++i) {
             compare(random, AreaShape::ellipse, aspect);
             compare(random, AreaShape::rectangle, aspect);
         }
