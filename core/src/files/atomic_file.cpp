@@ -12,7 +12,7 @@
 #include "files/deferred_signals.h"
 #include "rig_files/file_error.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -185,4 +185,4 @@ void replace_folder(const fs::path& path, const std::map<std::string, std::strin
     flush_folder(target.parent_path(), path);
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -7,7 +7,9 @@
 #include <string>
 #include <string_view>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// Writes a file whole or not at all: into one without a name in the same folder, which is flushed to the
 /// disk (fsync) and then takes the place of `path`. When anything fails or a signal comes, what stood at
@@ -28,4 +30,4 @@ void replace_folder(const std::filesystem::path& path, const std::map<std::strin
 /// Where the links lead, also where nothing is yet: std::filesystem::canonical wants a file at the end.
 std::filesystem::path follow_links(std::filesystem::path path);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -6,7 +6,7 @@
 
 #include "rig_files/file_error.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 glm::dvec3 xyz_of(double x, double y) {
@@ -49,4 +49,4 @@ std::optional<glm::dmat3> to_rec709(const Chromaticities& from) {
     return matrix;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -6,7 +6,9 @@
 #include <optional>
 #include <string>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// The xy coordinates of red, green, blue and white.
 using Chromaticities = std::array<double, 8>;
@@ -31,4 +33,4 @@ std::optional<ColorEncoding> read_png_encoding(const std::filesystem::path& path
 /// Rec.709's, up to rounding, or span no color space.
 std::optional<glm::dmat3> to_rec709(const Chromaticities& from);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

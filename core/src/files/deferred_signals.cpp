@@ -4,7 +4,7 @@
 #include <csignal>
 #include <mutex>
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr std::array signals = {SIGINT, SIGTERM, SIGHUP};
@@ -45,4 +45,4 @@ DeferredSignals::~DeferredSignals() {
     if (waiting != 0) ::raise(waiting);
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -1,6 +1,8 @@
 #pragma once
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// While it lives, requests to end (SIGINT, SIGTERM, SIGHUP) wait; then they take effect. May live
 /// on many threads at once.
@@ -12,4 +14,4 @@ class DeferredSignals {
     DeferredSignals& operator=(const DeferredSignals&) = delete;
 };
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -5,7 +5,7 @@
 #include "files/mesh_builder.h"
 #include "files/number_bytes.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 /// Accessors with no bytes behind them are refused beyond this.
@@ -157,4 +157,4 @@ bool decode_percent(std::string_view text, std::string& bytes) {
     return true;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

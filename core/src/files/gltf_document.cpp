@@ -7,7 +7,7 @@
 #include "files/mesh_builder.h"
 #include "files/number_bytes.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr std::uint32_t glb_magic = 0x46546C67;  // "glTF"
@@ -178,4 +178,4 @@ std::string GltfDocument::read_uri(const std::string& uri, const std::string& wh
     return read_whole_file(source, max_mesh_bytes);
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -9,7 +9,9 @@
 #include <string_view>
 #include <vector>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// A glTF 2.0 file: its JSON and the bytes that it refers to. Khronos Group, "glTF 2.0 Specification"
 /// (ISO/IEC 12113). What a message names is a path in the JSON, such as "accessors[3]".
@@ -68,4 +70,4 @@ bool decode_base64(std::string_view text, std::string& bytes);
 /// Bytes of a percent-encoded URI (RFC 3986). False where a % has no two digits.
 bool decode_percent(std::string_view text, std::string& bytes);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -3,7 +3,7 @@
 #include <array>
 #include <glm/gtc/quaternion.hpp>
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 template <std::size_t count>
@@ -126,4 +126,4 @@ GltfNodes read_gltf_nodes(const GltfDocument& document) {
     return nodes;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

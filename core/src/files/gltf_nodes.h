@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "files/gltf_document.h"
+#include "numerics/detail.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 
 /// The nodes of a glTF file: strict trees, walked without recursion.
 struct GltfNodes {
@@ -24,4 +25,4 @@ GltfNodes read_gltf_nodes(const GltfDocument& document);
 /// Translation, rotation (x, y, z, w) and scale as one matrix.
 glm::dmat4 gltf_transform(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

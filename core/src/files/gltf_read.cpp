@@ -6,7 +6,7 @@
 #include "files/gltf_nodes.h"
 #include "files/mesh_builder.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 using nlohmann::json;
@@ -279,4 +279,4 @@ MeshFile read_gltf(const std::filesystem::path& path, const std::string& group) 
     }
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -8,7 +8,7 @@
 #include "numerics/argument_check.h"
 #include "rig_files/file_error.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 
 std::array<double, 3> heat_color(double value) {
     constexpr double start = 0.5;
@@ -47,4 +47,4 @@ double write_heat_map(const std::filesystem::path& path, const ImageComparison& 
     return white;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -8,7 +8,7 @@
 #include "numerics/argument_check.h"
 #include "rig_files/file_error.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr float edge_tolerance = 1.0F / 255.0F;
@@ -147,4 +147,4 @@ ImageComparison compare_images(const std::filesystem::path& first_path,
     return comparison;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

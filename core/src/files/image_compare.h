@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "files/image_file.h"
+#include "numerics/detail.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 
 /// How far two images are apart, over the pixels that count; linear light.
 struct ImageDifference {
@@ -68,4 +69,4 @@ double write_heat_map(const std::filesystem::path& path, const ImageComparison& 
 /// gamma 1.
 std::array<double, 3> heat_color(double value);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -11,7 +11,7 @@
 #include "files/transfer_function.h"
 #include "rig_files/file_error.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 /// How the file's numbers stand for light, by its own words; where it has none, floats are linear and whole
@@ -189,4 +189,4 @@ bool has_channels(const std::filesystem::path& path, const std::vector<std::stri
                        [&](const std::string& name) { return find_channel(input.spec(), name).has_value(); });
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// Widest and highest image that is read, and most pixels; beyond it an image is refused before memory is
 /// taken.
@@ -54,4 +56,4 @@ RawChannels read_raw_channels(const std::filesystem::path& path, const std::vect
 /// True where the image's first part has every one of the channels.
 bool has_channels(const std::filesystem::path& path, const std::vector<std::string>& names);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -6,7 +6,7 @@
 #include "files/image_file.h"
 #include "rig_files/file_error.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr const char* damaged_remedy = "the file is damaged or was not written to its end; make it anew";
@@ -93,4 +93,4 @@ std::map<std::string, std::string> ImageInput::text() const {
     return found;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "numerics/detail.h"
+
 /// Opening images: what the readers of this folder share. Not for use outside of it.
-namespace skinglow {
+namespace skinglow::detail {
 
 /// An image file open for reading, its size checked.
 class ImageInput {
@@ -37,4 +39,4 @@ class ImageInput {
     int part_ = 0;
 };
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -4,7 +4,7 @@
 
 #include "rig_files/file_error.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 /// A layer of color or gray: its channels, and what it is called.
@@ -108,4 +108,4 @@ ColorChannels find_color(ImageInput& input) {
     return found;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "files/image_input.h"
+#include "numerics/detail.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 
 /// Where an image has its color: a part and channels in it; all three alike for gray.
 struct ColorChannels {
@@ -26,4 +27,4 @@ ColorChannels find_color(ImageInput& input);
 /// The place of a channel in a part.
 std::optional<int> find_channel(const OIIO::ImageSpec& spec, std::string_view name);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

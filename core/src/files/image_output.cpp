@@ -7,7 +7,7 @@
 #include "files/atomic_file.h"
 #include "rig_files/file_error.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 
 std::string image_bytes(const std::filesystem::path& path, OIIO::ImageSpec spec,
                         const std::map<std::string, std::string>& text, const void* pixels) {
@@ -30,4 +30,4 @@ void write_image(const std::filesystem::path& path, OIIO::ImageSpec spec,
     write_atomically(path, image_bytes(path, std::move(spec), text, pixels));
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

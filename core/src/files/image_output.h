@@ -6,8 +6,10 @@
 #include <map>
 #include <string>
 
+#include "numerics/detail.h"
+
 /// Writing images: what the writers of this folder share. Not for use outside of it.
-namespace skinglow {
+namespace skinglow::detail {
 
 /// Writes the pixels, rows from the top, of the type that `spec.format` says, whole or not at all.
 /// `text` goes into the header. Throws FileError naming the file.
@@ -18,4 +20,4 @@ void write_image(const std::filesystem::path& path, OIIO::ImageSpec spec,
 std::string image_bytes(const std::filesystem::path& path, OIIO::ImageSpec spec,
                         const std::map<std::string, std::string>& text, const void* pixels);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -5,7 +5,7 @@
 #include "numerics/argument_check.h"
 #include "rig_files/light_rig.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 using nlohmann::ordered_json;
@@ -53,4 +53,4 @@ void write_light_rig(const std::filesystem::path& path, const LightRig& rig) {
     write_atomically(path, text + "\n");
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

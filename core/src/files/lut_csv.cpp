@@ -9,7 +9,7 @@
 #include "rig_files/file_error.h"
 #include "rig_files/parse_number.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr std::string_view column_names = "thickness_mm,r,g,b";
@@ -114,4 +114,4 @@ LutFile read_lut_csv(const std::filesystem::path& path) {
     return {{std::move(colors), record}, {}};
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -10,7 +10,7 @@
 #include "numerics/argument_check.h"
 #include "rig_files/file_error.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 void check_table(const LutTable& table, const PngOptions& png) {
@@ -131,4 +131,4 @@ BaseLutFile read_base_lut(const std::filesystem::path& path, std::optional<doubl
     return {BaseLut::from_gray(gray, axis), std::move(notes)};
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -11,12 +11,13 @@
 #include <vector>
 
 #include "files/transfer_function.h"
+#include "numerics/detail.h"
 
 /// Lookup tables as files. A table is an image one texel high; entry i is texel i (LutAxis). What the pixels
 /// do not say (the thickness axis in mm, how the table was made) is text in the header, keys "skinglow:...":
 /// table ("recolored" or "base"), max_thickness_mm, mode, light_weight, blood_weight, coefficients,
 /// encoding.
-namespace skinglow {
+namespace skinglow::detail {
 
 /// How a recolored table was made; what does not apply stays empty.
 struct LutRecord {
@@ -84,4 +85,4 @@ BaseLutFile read_base_lut(const std::filesystem::path& path, std::optional<doubl
 /// far side to channel i of the light coming through. Throws FileError as write_lut does.
 void write_base_lut(const std::filesystem::path& path, const BaseLut& base);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "files/lut_file.h"
+#include "numerics/detail.h"
 
 /// The formats behind lut_file.h. Not for use outside of this folder.
-namespace skinglow {
+namespace skinglow::detail {
 
 using HeaderText = std::map<std::string, std::string>;
 
@@ -26,4 +27,4 @@ LutWriteReport write_lut_png(const std::filesystem::path& path, const LutTable& 
 void write_lut_csv(const std::filesystem::path& path, const LutTable& table);
 LutFile read_lut_csv(const std::filesystem::path& path);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

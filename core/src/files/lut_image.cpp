@@ -7,7 +7,7 @@
 #include "numerics/argument_check.h"
 #include "rig_files/file_error.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 float to_float(double value, const std::filesystem::path& path, std::size_t texel) {
@@ -99,4 +99,4 @@ void write_base_lut(const std::filesystem::path& path, const BaseLut& base) {
     write_image(path, spec, text, pixels.data());
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -5,7 +5,7 @@
 #include "rig_files/file_error.h"
 #include "rig_files/parse_number.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr const char* axis_key = "skinglow:max_thickness_mm";
@@ -92,4 +92,4 @@ LutRecord to_lut_record(const HeaderText& text, const std::filesystem::path& pat
     return record;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -8,7 +8,7 @@
 #include "numerics/argument_check.h"
 #include "rig_files/file_error.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 void check_side(const char* name, int value) {
@@ -50,4 +50,4 @@ LutWriteReport write_lut_preview(const std::filesystem::path& path, const LutTab
     return {count_clamped(table)};
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

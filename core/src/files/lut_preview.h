@@ -3,8 +3,9 @@
 #include <filesystem>
 
 #include "files/lut_file.h"
+#include "numerics/detail.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 
 /// Writes the table as a strip that people can look at: 8-bit sRGB PNG, thickness from left (0 mm) to right,
 /// colors between entries interpolated linearly in linear light, as hosts do. Colors above 1 are clamped.
@@ -14,4 +15,4 @@ namespace skinglow {
 LutWriteReport write_lut_preview(const std::filesystem::path& path, const LutTable& table, int width = 512,
                                  int height = 64);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -8,7 +8,7 @@
 #include "files/polygon_cut.h"
 #include "geometry/weld.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 
 void MeshBuilder::add_vertex(const glm::dvec3& position) {
     const std::size_t index = vertices_.size();
@@ -106,4 +106,4 @@ void refuse_group(const std::filesystem::path& path, const std::string& group,
                 known.empty() ? "it names none; read all of it" : "it has " + known);
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "files/mesh_file.h"
+#include "numerics/detail.h"
 #include "rig_files/file_error.h"
 
 /// What the mesh readers of this folder share. Not for use outside of it.
-namespace skinglow {
+namespace skinglow::detail {
 
 constexpr std::uintmax_t max_mesh_bytes = std::uintmax_t{2} << 30U;
 constexpr const char* damaged_mesh_remedy =
@@ -59,4 +60,4 @@ MeshFile read_stl(const std::filesystem::path& path);
 MeshFile read_obj(const std::filesystem::path& path, const std::string& group);
 MeshFile read_gltf(const std::filesystem::path& path, const std::string& group);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

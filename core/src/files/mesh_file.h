@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// What a mesh file says.
 struct MeshFile {
@@ -34,4 +36,4 @@ MeshFile read_mesh(const std::filesystem::path& path, const std::string& group =
 void write_thickness(const std::filesystem::path& path, const TriangleMesh& mesh,
                      std::span<const double> thickness_mm, double unit_mm);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -2,7 +2,7 @@
 
 #include "files/mesh_builder.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 
 MeshFile read_mesh(const std::filesystem::path& path, const std::string& group) {
     std::error_code error;
@@ -34,4 +34,4 @@ MeshFile read_mesh(const std::filesystem::path& path, const std::string& group) 
     return file;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

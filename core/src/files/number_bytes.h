@@ -5,7 +5,9 @@
 #include <bit>
 #include <cstring>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// A number from its bytes in a file, whatever the machine's own byte order.
 template <class Number, bool big_endian>
@@ -17,4 +19,4 @@ double load_number(const char* bytes) {
     return static_cast<double>(std::bit_cast<Number>(raw));
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

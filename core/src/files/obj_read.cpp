@@ -7,7 +7,7 @@
 
 #include "files/mesh_builder.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
@@ -174,4 +174,4 @@ MeshFile read_obj(const std::filesystem::path& path, const std::string& group) {
     return ObjReader(path, group).read();
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

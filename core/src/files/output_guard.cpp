@@ -5,7 +5,7 @@
 #include "files/atomic_file.h"
 #include "rig_files/file_error.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,4 +39,4 @@ void refuse_overwriting(const std::vector<fs::path>& outputs, const std::vector<
     }
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

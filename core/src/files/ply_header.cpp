@@ -7,7 +7,7 @@
 #include "files/mesh_builder.h"
 #include "files/number_bytes.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 template <class Number>
@@ -153,4 +153,4 @@ PlyHeader read_ply_header(const std::filesystem::path& path, std::string_view co
     return HeaderReader(path, content).read();
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

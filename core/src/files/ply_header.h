@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 enum class PlyCoding { text, little_endian, big_endian };
 
@@ -46,4 +48,4 @@ struct PlyHeader {
 /// their size that came into use later. @throws FileError naming the line
 PlyHeader read_ply_header(const std::filesystem::path& path, std::string_view content);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

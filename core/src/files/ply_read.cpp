@@ -8,7 +8,7 @@
 #include "files/mesh_builder.h"
 #include "files/ply_header.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr double strip_end = -1.0;  // a triangle strip begins anew after it
@@ -153,4 +153,4 @@ MeshFile read_ply(const std::filesystem::path& path) {
     return file;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -8,7 +8,7 @@
 #include "files/number_bytes.h"
 #include "rig_files/file_error.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 using Transfer = ColorEncoding::Transfer;
@@ -134,4 +134,4 @@ std::optional<ColorEncoding> read_png_encoding(const std::filesystem::path& path
     return encoding;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

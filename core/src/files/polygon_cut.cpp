@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 /// Looks for each corner before a polygon is given up; common ones need some dozens.
@@ -253,4 +253,4 @@ bool PolygonCutter::blocks(std::uint32_t corner, std::uint32_t tip) const {
            doubled_area(after, before, corner) >= 0.0;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// Cuts polygons into triangles by clipping ears, concave ones too. An ear can only be blocked by reflex
 /// corners, which a tree of boxes finds; a blocked one is looked at again when what blocked it is gone.
@@ -58,4 +60,4 @@ class PolygonCutter {
     std::uint64_t work_ = 0;  ///< corners and boxes looked at
 };
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -8,7 +8,7 @@
 #include "files/number_bytes.h"
 #include "files/word_reader.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr std::size_t header_bytes = 84;    // a text of 80 and the number of triangles
@@ -75,4 +75,4 @@ MeshFile read_stl(const std::filesystem::path& path) {
     return file;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

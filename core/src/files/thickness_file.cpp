@@ -9,7 +9,7 @@
 #include "numerics/argument_check.h"
 #include "rig_files/file_error.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 /// The number's bytes, lowest first, whatever the machine's own order.
@@ -71,4 +71,4 @@ void write_thickness(const std::filesystem::path& path, const TriangleMesh& mesh
     }
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace skinglow {
+namespace skinglow::detail {
 
 double srgb_to_linear(double encoded) {
     const double size = std::abs(encoded);
@@ -23,4 +23,4 @@ unsigned quantize(double linear, Encoding encoding, unsigned levels) {
     return static_cast<unsigned>(std::lround(encoded * levels));
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

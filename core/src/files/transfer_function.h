@@ -1,6 +1,8 @@
 #pragma once
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// How numbers in a file stand for light.
 enum class Encoding { linear, srgb };
@@ -14,4 +16,4 @@ double linear_to_srgb(double linear);
 /// rounded to nearest.
 unsigned quantize(double linear, Encoding encoding, unsigned levels);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -7,8 +7,9 @@
 #include <string_view>
 
 #include "files/mesh_builder.h"
+#include "numerics/detail.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 
 /// Words and numbers of a text file, one after the other; refuses naming the line.
 class WordReader {
@@ -51,4 +52,4 @@ class WordReader {
     std::string_view rest_;
 };
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

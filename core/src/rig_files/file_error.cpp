@@ -6,7 +6,7 @@
 #include <fstream>
 #include <system_error>
 
-namespace skinglow {
+namespace skinglow::detail {
 
 void refuse_file(const std::filesystem::path& path, std::string_view what, std::string_view remedy,
                  std::string_view where) {
@@ -59,4 +59,4 @@ std::string read_whole_file(const std::filesystem::path& path, std::size_t max_b
     return text;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -5,7 +5,9 @@
 #include <string>
 #include <string_view>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// A file that cannot be used. Its text is one line a person can act on: "file PATH: [WHERE: ]WHAT: REMEDY".
 class FileError : public std::runtime_error {
@@ -29,4 +31,4 @@ std::string small_extension(const std::filesystem::path& path);
 /// The whole file as bytes. Throws FileError where it cannot be read or is longer than allowed.
 std::string read_whole_file(const std::filesystem::path& path, std::size_t max_bytes);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// Lamps around a point of skin, with the numbers of Eq. 1 and 2 that go with them. As a file:
 /// docs/rig_format.md.
@@ -32,4 +34,4 @@ LightRig read_light_rig(const std::filesystem::path& path);
 /// Throws std::invalid_argument as `validate` does, FileError where the file cannot be written.
 void write_light_rig(const std::filesystem::path& path, const LightRig& rig);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

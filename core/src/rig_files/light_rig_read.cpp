@@ -7,7 +7,7 @@
 #include "rig_files/light_rig.h"
 #include "rig_files/located_json.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 using nlohmann::json;
@@ -202,4 +202,4 @@ LightRig read_light_rig(const std::filesystem::path& path) {
     return rig;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

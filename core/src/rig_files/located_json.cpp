@@ -7,7 +7,7 @@
 
 #include "rig_files/file_error.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 using nlohmann::json;
@@ -175,4 +175,4 @@ void LocatedJson::refuse(const std::string& name, std::string_view what, std::st
     refuse_file(path_, what, remedy, where);
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -7,7 +7,9 @@
 #include <string_view>
 #include <unordered_map>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// A JSON file that knows on which line each of its values stands, so that a message about a value can say
 /// where. A value's name is its path: "lights[2].color[0]"; the whole document is "".
@@ -29,4 +31,4 @@ class LocatedJson {
     std::unordered_map<std::string, std::size_t> lines_;
 };
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace skinglow {
+namespace skinglow::detail {
 
 std::optional<double> parse_number(std::string_view text) {
     double value = 0.0;
@@ -13,4 +13,4 @@ std::optional<double> parse_number(std::string_view text) {
     return value;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

@@ -13,7 +13,7 @@
 #include "rig_files/file_error.h"
 #include "rig_files/parse_number.h"
 
-namespace skinglow {
+namespace skinglow::detail {
 namespace {
 
 constexpr std::size_t max_bytes = std::size_t{1} << 20U;  // a real one has 2 kB
@@ -129,4 +129,4 @@ StudioLight read_studio_light(const std::filesystem::path& path, const glm::dmat
     return studio;
 }
 
-}  // namespace skinglow
+}  // namespace skinglow::detail

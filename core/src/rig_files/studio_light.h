@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace skinglow {
+#include "numerics/detail.h"
+
+namespace skinglow::detail {
 
 /// A camera's axes in the world, as columns: right, up, and back (from what it sees to its eye).
 /// Blender's front view, which looks along +Y: right +X, up +Z, back -Y. Each column to the last bit of what
@@ -38,4 +40,4 @@ constexpr double studio_light_power = std::numbers::pi;
 /// finite.
 StudioLight read_studio_light(const std::filesystem::path& path, const glm::dmat3& camera = front_view);
 
-}  // namespace skinglow
+}  // namespace skinglow::detail
