@@ -38,7 +38,6 @@ from skinglow._core import (
     light_report,
     light_weight,
     light_weights,
-    line_spectrum,
     lut_error,
     merge_identical,
     normal_cone,
@@ -64,6 +63,7 @@ from skinglow._core import (
 )
 from skinglow._occlusion import Occluders, VisibleFraction
 from skinglow._renamed import __getattr__ as __getattr__
+from skinglow._spectra import line_spectrum
 from skinglow._thickness import ThicknessReport, thickness, thickness_report
 
 __all__ = [

@@ -219,3 +219,8 @@ def test_diffuse_reflectance_of_a_surface():
 def test_bad_input_is_refused(call, message):
     with pytest.raises(ValueError, match=message):
         call()
+
+
+def test_former_keyword_of_a_line_spectrum_goes_on_working_with_a_warning() -> None:
+    with pytest.warns(DeprecationWarning, match="centre_nm is now center_nm"):
+        assert np.array_equal(sg.line_spectrum(centre_nm=500.0, fwhm_nm=20.0), sg.line_spectrum(500.0, 20.0))

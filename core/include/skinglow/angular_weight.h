@@ -21,7 +21,7 @@ glm::dvec3 evaluate(const AngularCubic& cubic, double mu);
 /// How much more or less of the light that strikes the far side at an angle comes through than of light from
 /// everywhere: w(mu) = T(mu) / T_diffuse, mu the cosine to the normal and T_diffuse = 2 integral of T(mu) mu
 /// dmu. Irradiance from direction mu counts w(mu) times. Diffuse light counts once, by definition, so that
-/// one table M(d) for diffuse light serves lamps from every angle. T is the slab solver's, at a thickness
+/// one table M(d) for diffuse light serves lights from every angle. T is the slab solver's, at a thickness
 /// typical of the object.
 class AngularWeight {
   public:

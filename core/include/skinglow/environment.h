@@ -43,7 +43,7 @@ class Environment {
 
     /// From the picture of a mirrored ball seen from far away along +y, with +z up, as Blender's projection
     /// Mirror Ball: the ball fills the square image, whose corners are not read. On a ball equal areas show
-    /// equal solid angles; a pixel that the rim cuts counts where its middle lies.
+    /// equal solid angles; a pixel that the rim cuts counts where its center lies.
     static Environment from_mirror_ball(const RadianceImage& image);
 
     /// The same light with the whole world turned: what came from direction d comes from rotation * d.
@@ -51,7 +51,7 @@ class Environment {
     Environment rotated(const glm::dmat3& rotation) const;
 
     /// Unit direction of an image position, u and v in [0, 1] from the left and the bottom, as Blender's
-    /// Environment Texture maps it: the middle of the image looks along +x, a quarter from the left +y.
+    /// Environment Texture maps it: the center of the image looks along +x, a quarter from the left +y.
     static glm::dvec3 direction(double u, double v);
 
     /// Irradiance on a surface along a unit normal, W/m^2, not below 0; pi L for constant radiance L.

@@ -100,7 +100,7 @@ constexpr double default_area_tolerance = 1e-7;
 glm::dvec3 irradiance_at(const PreparedRig& rig, const glm::dvec3& point, const glm::dvec3& normal,
                          double tolerance = default_area_tolerance);
 
-/// Object weight of each light: irradiance at the point on a surface that faces the middle of the light, so
+/// Object weight of each light: irradiance at the point on a surface that faces the center of the light, so
 /// without the receiver's cosine (the paper's one lookup table per object has no normal).
 /// @return one per light, in the order given. Parameters and errors as above.
 std::vector<glm::dvec3> object_irradiance_by_light(const PreparedRig& rig, const glm::dvec3& point,
@@ -111,7 +111,7 @@ std::vector<glm::dvec3> object_irradiance_by_light(const PreparedRig& rig, const
 glm::dvec3 object_irradiance(const PreparedRig& rig, const glm::dvec3& point,
                              double tolerance = default_area_tolerance);
 
-/// How surface weights are worked out.
+/// How surface weights are computed.
 struct SurfaceOptions {
     double area_tolerance = default_area_tolerance;  ///< relative, of the integrals for ellipses and spreads
     const AngularWeight* angular_weight = nullptr;  ///< none: every angle enters alike (Lambert). Area lights
@@ -200,7 +200,7 @@ struct LightReportEntry {
     std::size_t index;
     std::string name;
     LightKind kind;
-    double distance;                     ///< to the middle of the light, scene unit; 0 for a sun
+    double distance;                     ///< to the center of the light, scene unit; 0 for a sun
     double axis_angle;                   ///< between axis and point, radians; 0 for a point light and a sun
     std::optional<double> normal_angle;  ///< between normal and light, radians; none without a normal
     glm::dvec3 weight;                   ///< what it brings, W/m^2, linear Rec.709

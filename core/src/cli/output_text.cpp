@@ -8,7 +8,7 @@
 namespace skinglow::cli {
 namespace {
 
-/// Characters, not bytes: names of lamps come in every script.
+/// Characters, not bytes: names of lights come in every script.
 std::size_t shown_width(const std::string& text) {
     return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
         return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;

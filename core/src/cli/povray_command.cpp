@@ -82,7 +82,7 @@ PovrayLut use_table(const Options& options, std::map<std::string, std::string>& 
     return lut;
 }
 
-/// The glow that the macros compute for themselves from the base and the lamps.
+/// The glow that the macros compute for themselves from the base and the lights.
 PovrayLut compute_table(const Options& options) {
     PovrayLut lut;
     lut.mode = options.table.mode();

@@ -15,7 +15,7 @@ enum class RigNeed {
     with_camera  ///< required, and the command has a camera of its own, which --camera-rotation turns
 };
 
-/// The options by which commands take lights: a rig file, and what stands on the command line in its place.
+/// The options by which commands take lights: a rig file, and what stands on the command line instead.
 class RigOptions {
   public:
     /// Adds RIG, --point, --coefficients, --blood and --camera-rotation.

@@ -21,7 +21,7 @@ struct Options {
 struct LightShare {
     std::string name;
     bool on = false;
-    std::optional<double> distance;  // a sun has none, and that of a lamp that is off does not matter
+    std::optional<double> distance;  // a sun has none, and that of a light that is off does not matter
     double attenuation = 0.0;
     glm::dvec3 weight{0.0};
     double share = 0.0;  // of the brightness of L; 0 where L is black

@@ -19,7 +19,7 @@ namespace skinglow::detail {
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
 
 /// Writes a folder of files, by name, as a whole or not at all: into a new folder beside it, which then
-/// changes places with it in one step. Also with two writers at once it holds the files of one of them. What
+/// is exchanged with it in one step. Also with two writers at once it holds the files of one of them. What
 /// else it held stays, but for `obsolete` names.
 /// @param obsolete  files of an earlier writing that are to go where `files` has none of that name
 /// @throws FileError where it cannot be written, is no folder or is the working directory, which

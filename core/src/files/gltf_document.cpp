@@ -22,7 +22,7 @@ std::uint32_t word_at(std::string_view bytes, std::size_t at) {
 
 bool is_readable_extension(std::string_view name) {
     constexpr std::array read = {"KHR_mesh_quantization", "EXT_mesh_gpu_instancing"};
-    // Of surfaces, pictures, lamps and additional data: vertices and faces are the same without them.
+    // Of surfaces, pictures, lights and additional data: vertices and faces are the same without them.
     constexpr std::array harmless = {"KHR_materials_", "KHR_texture_",         "EXT_texture_",
                                      "MSFT_texture_",  "KHR_lights_",          "EXT_lights_",
                                      "KHR_xmp",        "KHR_animation_pointer"};

@@ -37,7 +37,7 @@ struct LinearImage {
 /// - Encoding: what the file says of itself (in a PNG cICP, sRGB, gAMA; chromaticities of cHRM and EXR are
 ///   converted to Rec.709); a file that says nothing is linear if it holds floats, sRGB if integers. What it
 ///   says and is not read (ICC profiles) is named in the notes.
-/// - A data window smaller than the picture (a cropped EXR) is put in its place; outside it is black and
+/// - A data window smaller than the picture (a cropped EXR) is placed where it belongs; outside it is black and
 /// uncovered. Throws FileError where the file is unreadable, truncated, too large or holds a pixel that is
 /// not finite.
 LinearImage read_image(const std::filesystem::path& path);

@@ -24,7 +24,7 @@ struct ColorChannels {
 /// @throws FileError where there is none or several could be meant, naming them
 ColorChannels find_color(ImageInput& input);
 
-/// The place of a channel in a part.
+/// Index of a channel in a part.
 std::optional<int> find_channel(const OIIO::ImageSpec& spec, std::string_view name);
 
 }  // namespace skinglow::detail

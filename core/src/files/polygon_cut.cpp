@@ -190,7 +190,7 @@ void PolygonCutter::build_tree() {
     }
 }
 
-/// The leaf of a place in `reflex_`: the leaves share these evenly.
+/// The leaf of a slot in `reflex_`: the leaves share these evenly.
 std::size_t PolygonCutter::leaf_of(std::size_t place) const {
     return leaves_ + place * leaves_ / reflex_.size();
 }

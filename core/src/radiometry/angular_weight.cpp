@@ -60,10 +60,10 @@ AngularWeight::AngularWeight(std::span<const double> mu, std::span<const glm::dv
     for (std::size_t i = 0; i < intervals; ++i) {
         const double left = static_cast<double>(i) / intervals;
         const double step = 1.0 / intervals;
-        for (const auto& [place, weight] :
+        for (const auto& [t, weight] :
              {std::pair(0.0, 1.0 / 6), std::pair(0.5, 4.0 / 6), std::pair(1.0, 1.0 / 6)}) {
-            const double x = left + place * step;
-            const glm::dvec3 term = (table_[i] * (1.0 - place) + table_[i + 1] * place) * (weight * step * x);
+            const double x = left + t * step;
+            const glm::dvec3 term = (table_[i] * (1.0 - t) + table_[i + 1] * t) * (weight * step * x);
             integral[0] += term;
             integral[1] += term * x;
             integral[2] += term * (1.5 * x * x - 0.5);
@@ -84,9 +84,9 @@ AngularWeight::AngularWeight(std::span<const double> mu, std::span<const glm::dv
 }
 
 glm::dvec3 AngularWeight::at(double mu) const {
-    const double place = std::clamp(mu, 0.0, 1.0) * intervals;
-    const auto i = std::min(static_cast<std::size_t>(place), intervals - 1);
-    const double t = place - static_cast<double>(i);
+    const double index = std::clamp(mu, 0.0, 1.0) * intervals;
+    const auto i = std::min(static_cast<std::size_t>(index), intervals - 1);
+    const double t = index - static_cast<double>(i);
     return table_[i] * (1.0 - t) + table_[i + 1] * t;
 }
 

@@ -13,9 +13,9 @@ namespace {
 constexpr double narrow = 1.0 / 50.0;
 constexpr double wide = 1.0 / 4.0;
 
-/// A place on the lamp, in units of its half axes, and its share of the area.
+/// A point on the light, in units of its half axes, and its fraction of the area.
 struct Part {
-    double x, y, share;
+    double x, y, fraction;
 };
 
 template <std::size_t Across>
@@ -58,7 +58,7 @@ AreaAngularWeight::AreaAngularWeight(const PreparedLight& light, const AngularWe
             nodes.push_back(
                 {light.position() + light.area_scale() * (part.x * area.half_x() * light.frame()[0] +
                                                           part.y * area.half_y() * light.frame()[1]),
-                 part.share});
+                 part.fraction});
         }
         return nodes;
     };
@@ -73,17 +73,17 @@ glm::dvec3 AreaAngularWeight::mean(const glm::dvec3& point, const glm::dvec3& no
     glm::dvec3 sum(0.0);
     double whole = 0.0;
     for (const Node& node : half_diagonal_ > wide * distance ? many_ : few_) {
-        const glm::dvec3 towards = node.place - point;
+        const glm::dvec3 towards = node.position - point;
         const double height = -glm::dot(towards, light_.direction());
-        const double level = glm::dot(towards, normal);
-        if (!(height > 0.0) || !(level > 0.0)) continue;
+        const double height_over_horizon = glm::dot(towards, normal);
+        if (!(height > 0.0) || !(height_over_horizon > 0.0)) continue;
         const double length = glm::length(towards);
         const double sideways = std::sqrt(std::max(0.0, (length - height) * (length + height)));
-        // In units of the distance to the middle: near or far, nothing over- or underflows.
+        // In units of the distance to the center: near or far, nothing over- or underflows.
         const double ratio = distance / length;
-        const double light = node.share * light_.area()->gain(sideways / height) * (level / length) *
-                             (height / length) * ratio * ratio;
-        sum += light * angular_weight_.at(level / length);
+        const double light = node.fraction * light_.area()->gain(sideways / height) *
+                             (height_over_horizon / length) * (height / length) * ratio * ratio;
+        sum += light * angular_weight_.at(height_over_horizon / length);
         whole += light;
     }
     return whole > 0.0 && std::isfinite(whole) ? sum / whole : at_middle;

@@ -20,9 +20,9 @@ struct Receiver {
     glm::dvec3 point;
     glm::dvec3 normal;
 
-    /// Height of a place on the lamp over the receiver's horizon, times a length.
-    double above_horizon(const glm::dvec2& place) const {
-        return glm::dot(normal, glm::dvec3(place, 0.0) - point);
+    /// Height of a point on the light over the receiver's horizon, times a length.
+    double above_horizon(const glm::dvec2& point_2d) const {
+        return glm::dot(normal, glm::dvec3(point_2d, 0.0) - point);
     }
 };
 
@@ -30,7 +30,7 @@ struct Receiver {
 struct Polygon {
     std::array<glm::dvec2, 5> corner;
     std::size_t count = 0;
-    void add(const glm::dvec2& place) { corner[count++] = place; }
+    void add(const glm::dvec2& point_2d) { corner[count++] = point_2d; }
 };
 
 Polygon part_above_horizon(double half_x, double half_y, const Receiver& receiver) {
@@ -76,11 +76,11 @@ class RimIntegrand {
         if (spread_ == nullptr) {
             return -0.5 * glm::dot(receiver_.normal, glm::cross(to_rim, motion)) / glm::dot(to_rim, to_rim);
         }
-        const double square = to_rim.x * to_rim.x + to_rim.y * to_rim.y;
-        if (square == 0.0) return 0.0;
-        const double distance = std::sqrt(square);
+        const double foot_distance_sq = to_rim.x * to_rim.x + to_rim.y * to_rim.y;
+        if (foot_distance_sq == 0.0) return 0.0;
+        const double distance = std::sqrt(foot_distance_sq);
         const glm::dvec2 c = spread_->coefficients(distance / receiver_.point.z);
-        const double wedge = (to_rim.x * motion.y - to_rim.y * motion.x) / square;
+        const double wedge = (to_rim.x * motion.y - to_rim.y * motion.x) / foot_distance_sq;
         const double along = (receiver_.normal.x * to_rim.x + receiver_.normal.y * to_rim.y) / distance;
         return wedge * (-receiver_.normal.z * c.x + along * c.y);
     }
@@ -113,7 +113,7 @@ class RimIntegrand {
     const SpreadIntegral* spread_;
 };
 
-/// Pieces that shrink towards the place of the rim next to the receiver, so that a rule meets no feature
+/// Pieces that shrink towards the point of the rim next to the receiver, so that a rule meets no feature
 /// narrower than its piece; then halved where they still disagree.
 double integrate_rim(const RimIntegrand& rim, double from, double to, double finest, double tolerance) {
     std::vector<double> cuts = {from, to};
@@ -129,41 +129,41 @@ double integrate_rim(const RimIntegrand& rim, double from, double to, double fin
     }
     std::sort(cuts.begin(), cuts.end());
     double sum = 0;
-    const double share = tolerance / static_cast<double>(cuts.size());
+    const double allowed = tolerance / static_cast<double>(cuts.size());
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-        if (cuts[i + 1] > cuts[i]) sum += integrate_adaptively(rim, cuts[i], cuts[i + 1], share);
+        if (cuts[i + 1] > cuts[i]) sum += integrate_adaptively(rim, cuts[i], cuts[i + 1], allowed);
     }
     return sum;
 }
 
-/// Places of the trapezoidal rule around the rim; a rule of half as many is every second one.
-constexpr std::size_t rim_places = 256;
+/// Points of the trapezoidal rule around the rim; a rule of half as many is every second one.
+constexpr std::size_t rim_points = 256;
 
-const std::array<glm::dvec2, rim_places>& rim_table() {
-    static const std::array<glm::dvec2, rim_places> table = [] {
-        std::array<glm::dvec2, rim_places> places{};
-        for (std::size_t i = 0; i < rim_places; ++i) {
-            const double angle = 2 * pi * static_cast<double>(i) / rim_places;
-            places[i] = {std::cos(angle), std::sin(angle)};
+const std::array<glm::dvec2, rim_points>& rim_table() {
+    static const std::array<glm::dvec2, rim_points> table = [] {
+        std::array<glm::dvec2, rim_points> points{};
+        for (std::size_t i = 0; i < rim_points; ++i) {
+            const double angle = 2 * pi * static_cast<double>(i) / rim_points;
+            points[i] = {std::cos(angle), std::sin(angle)};
         }
-        return places;
+        return points;
     }();
     return table;
 }
 
 /// The whole rim by the trapezoidal rule, whose error for a smooth periodic function falls like a geometric
-/// series; false where all places do not settle it (the receiver is too near).
+/// series; false where all points do not settle it (the receiver is too near).
 bool integrate_whole_rim(const RimIntegrand& rim, double tolerance, double& result) {
-    const std::array<glm::dvec2, rim_places>& table = rim_table();
+    const std::array<glm::dvec2, rim_points>& table = rim_table();
     const auto sum_of = [&](std::size_t first, std::size_t step) {
         double sum = 0;
-        for (std::size_t i = first; i < rim_places; i += step) sum += rim.at(table[i].x, table[i].y);
+        for (std::size_t i = first; i < rim_points; i += step) sum += rim.at(table[i].x, table[i].y);
         return sum;
     };
-    double sum = sum_of(0, rim_places / 8);
+    double sum = sum_of(0, rim_points / 8);
     double before = sum * 2 * pi / 8;
-    for (std::size_t count = 16; count <= rim_places; count *= 2) {
-        sum += sum_of(rim_places / count, 2 * rim_places / count);
+    for (std::size_t count = 16; count <= rim_points; count *= 2) {
+        sum += sum_of(rim_points / count, 2 * rim_points / count);
         result = sum * 2 * pi / static_cast<double>(count);
         // The next doubling would change it by the square of this change: the tolerance is met long before.
         if (std::abs(result - before) <= tolerance) return true;
@@ -228,18 +228,18 @@ double AreaEmitter::rectangle_irradiance(const glm::dvec3& point, const glm::dve
 double AreaEmitter::ellipse_irradiance(const glm::dvec3& point, const glm::dvec3& normal,
                                        double tolerance) const {
     const Receiver receiver{point, normal};
-    const double swing_x = normal.x * half_x_;
-    const double swing_y = normal.y * half_y_;
-    const double swing = std::hypot(swing_x, swing_y);
-    const double level = -glm::dot(normal, point);
-    if (level <= -swing) return 0.0;
+    const double extent_x = normal.x * half_x_;
+    const double extent_y = normal.y * half_y_;
+    const double extent = std::hypot(extent_x, extent_y);
+    const double center_height = -glm::dot(normal, point);
+    if (center_height <= -extent) return 0.0;
     const double distance = glm::length(point);
     const double scale = std::min(pi, area() * axis_gain() / (distance * distance));
     const double absolute = 0.3 * tolerance * scale * spread_norm_;
     const SpreadIntegral spread(tan_half_);
     const RimIntegrand rim(half_x_, half_y_, receiver, spreads_ ? &spread : nullptr);
     const double widest = std::max(half_x_, half_y_);
-    const bool whole = level >= swing;
+    const bool whole = center_height >= extent;
     double sum = 0;
     // Two coarse rules may agree by missing a feature together: only where there is none. The distance to the box
     // around the ellipse is a lower bound of that to its rim.
@@ -253,15 +253,15 @@ double AreaEmitter::ellipse_irradiance(const glm::dvec3& point, const glm::dvec3
     const double feature = std::min(rim.distance_to(rim.nearest_angle()), beam);
     const double finest = 0.25 * feature / widest;
     if (whole) return integrate_rim(rim, -pi, pi, finest, absolute) / spread_norm_;
-    const double middle = std::atan2(swing_y, swing_x);
-    const double half_arc = std::acos(std::clamp(-level / swing, -1.0, 1.0));
-    sum = integrate_rim(rim, middle - half_arc, middle + half_arc, finest, absolute);
+    const double center_angle = std::atan2(extent_y, extent_x);
+    const double half_arc = std::acos(std::clamp(-center_height / extent, -1.0, 1.0));
+    sum = integrate_rim(rim, center_angle - half_arc, center_angle + half_arc, finest, absolute);
     // The straight cut along the horizon closes the rim.
-    const auto place = [&](double angle) {
+    const auto rim_point = [&](double angle) {
         return glm::dvec2(half_x_ * std::cos(angle), half_y_ * std::sin(angle));
     };
-    const glm::dvec2 end = place(middle + half_arc);
-    const glm::dvec2 begin = place(middle - half_arc);
+    const glm::dvec2 end = rim_point(center_angle + half_arc);
+    const glm::dvec2 begin = rim_point(center_angle - half_arc);
     const glm::dvec2 foot(point.x, point.y);
     sum += spreads_ ? spread.edge((end - foot) / point.z, (begin - foot) / point.z, {normal.x, normal.y},
                                   normal.z, absolute)

@@ -8,7 +8,7 @@
 
 namespace skinglow::detail {
 
-/// A flat lamp in its own frame: it lies at z = 0 around the origin and shines towards +z with radiance
+/// A flat light in its own frame: it lies at z = 0 around the origin and shines towards +z with radiance
 /// L g(t), g(t) = max(0, (tan s/2 - tan t) / (tan s/2 - s/2)) at an angle t to z and a spread s (g = 1 for s
 /// = pi, a Lambert emitter; Blender's area lights, measured on 3.4 to 5.2).
 class AreaEmitter {
@@ -16,10 +16,10 @@ class AreaEmitter {
     /// @param half_x, half_y  half widths, above 0; @param spread  full angle, radians, above 0, at most pi
     AreaEmitter(AreaShape shape, double half_x, double half_y, double spread);
 
-    /// Irradiance at a point, divided by L; 0 behind the lamp. The part of the lamp below the receiver's
+    /// Irradiance at a point, divided by L; 0 behind the light. The part of the light below the receiver's
     /// horizon is cut. Rectangles without a spread are in closed form (J. H. Lambert's polygon formula,
     /// Photometria, 1760); the others are one integral along the rim, to a relative tolerance.
-    /// @param point   in the lamp's frame; @param normal  the receiver's, in the same frame, unit
+    /// @param point   in the light's frame; @param normal  the receiver's, in the same frame, unit
     /// @param tolerance  of the integral, relative to area * cos / distance^2, above 0
     double irradiance(const glm::dvec3& point, const glm::dvec3& normal, double tolerance) const;
 

@@ -15,7 +15,7 @@ constexpr double pi = std::numbers::pi;
 
 /// A light of no height is as good as this high, in units of its width: a line.
 constexpr double thinnest = 1e-8;
-/// A lamp this small against its distance is a point with a cosine: the error is of the order of the square.
+/// A light this small against its distance is a point with a cosine: the error is of the order of the square.
 constexpr double point_like = 1e-4;
 /// A patch of this angular radius sees one value of a spot's profile.
 constexpr double sharp = 1e-6;
@@ -23,7 +23,7 @@ constexpr double sharp = 1e-6;
 /// tolerance.
 constexpr double narrowest_spread = 1e-6;  // radians
 constexpr double smallest = 1e-12;         // scene unit; at min_light_distance already point_like
-constexpr double lowest = 1e-9;            // height over an area lamp, in units of its width
+constexpr double lowest = 1e-9;            // height over an area light, in units of its width
 
 }  // namespace
 
@@ -55,16 +55,16 @@ PreparedLight::PreparedLight(const Light& light) : kind_(light.kind()), position
 
 glm::dvec3 PreparedLight::to_light(const glm::dvec3& point) const {
     if (kind_ == LightKind::sun) return -direction();
-    const glm::dvec3 half_way =
-        0.5 * position_ - 0.5 * point;  // the whole way may be beyond the largest double
-    if (half_way == glm::dvec3(0.0)) return -direction();
-    return unit(half_way);
+    const glm::dvec3 half_offset =
+        0.5 * position_ - 0.5 * point;  // the difference may be beyond the largest double
+    if (half_offset == glm::dvec3(0.0)) return -direction();
+    return unit(half_offset);
 }
 
 double PreparedLight::distance(const glm::dvec3& point) const {
     if (kind_ == LightKind::sun) return 0.0;
-    const glm::dvec3 way = position_ - point;
-    return std::hypot(way.x, way.y, way.z);
+    const glm::dvec3 offset = position_ - point;
+    return std::hypot(offset.x, offset.y, offset.z);
 }
 
 PreparedLight::BallTerm PreparedLight::ball_term(double distance) const {
@@ -89,10 +89,10 @@ double PreparedLight::through_spot(const BallTerm& ball, const glm::dvec3& norma
 }
 
 double PreparedLight::ball_irradiance(const glm::dvec3& point, const glm::dvec3& normal) const {
-    const double away = distance(point);
-    const BallTerm ball = ball_term(away);
+    const double distance = this->distance(point);
+    const BallTerm ball = ball_term(distance);
     const glm::dvec3 towards = to_light(point);
-    const glm::dvec3& facing = away == 0.0 ? towards : normal;
+    const glm::dvec3& facing = distance == 0.0 ? towards : normal;
     if (kind_ == LightKind::spot) return ball.facing * through_spot(ball, facing, towards);
     return ball.facing *
            (ball.inside ? 1.0 : cap_irradiance(glm::dot(facing, towards), std::min(1.0, ball.sin_radius)));
@@ -100,19 +100,19 @@ double PreparedLight::ball_irradiance(const glm::dvec3& point, const glm::dvec3&
 
 double PreparedLight::area_irradiance(const glm::dvec3& point, const glm::dvec3& normal,
                                       double tolerance) const {
-    const glm::dvec3 way = point - position_;
-    const double away = std::max(std::hypot(way.x, way.y, way.z), min_light_distance);
-    const double height = glm::dot(way, direction());
-    if (!(height >= 0.0) || !std::isfinite(away)) return 0.0;
+    const glm::dvec3 offset = point - position_;
+    const double distance = std::max(std::hypot(offset.x, offset.y, offset.z), min_light_distance);
+    const double height = glm::dot(offset, direction());
+    if (!(height >= 0.0) || !std::isfinite(distance)) return 0.0;
     const double widest = 2.0 * area_scale_;
-    if (widest <= point_like * away * std::min(1.0, area_->half_spread())) {
-        const double cos_emitter = std::min(1.0, std::max(height, min_light_distance) / away);
+    if (widest <= point_like * distance * std::min(1.0, area_->half_spread())) {
+        const double cos_emitter = std::min(1.0, std::max(height, min_light_distance) / distance);
         const double tangent = std::sqrt(1.0 - cos_emitter * cos_emitter) / cos_emitter;
         const double cos_normal = std::max(0.0, glm::dot(normal, to_light(point)));
-        return cos_emitter * cos_normal * area_->gain(tangent) / pi / away / away;
+        return cos_emitter * cos_normal * area_->gain(tangent) / pi / distance / distance;
     }
     glm::dvec3 local =
-        (way / area_scale_) * frame_;  // row vector times matrix: the transpose, the frame's inverse
+        (offset / area_scale_) * frame_;  // row vector times matrix: the transpose, the frame's inverse
     local.z = std::max({local.z, min_light_distance / area_scale_, lowest});
     const double per_radiance = area_->irradiance(local, normal * frame_, tolerance);
     return per_radiance / (pi * area_->area()) / area_scale_ / area_scale_;

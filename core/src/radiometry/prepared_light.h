@@ -13,11 +13,11 @@
 
 namespace skinglow::detail {
 
-/// No lamp is nearer than this, in the scene's length unit: a point at a lamp's very place gets what it gets
+/// No light is nearer than this, in the unit of length of the scene: a point at the position of a light gets what it gets
 /// at this distance, facing it, so that nothing is infinite.
 constexpr double min_light_distance = 1e-6;
 
-/// A lamp without its color and power, its angles and frames worked out once: how much of a unit of power
+/// A light without its color and power, its angles and frames computed once: how much of a unit of power
 /// arrives. All values are in 1/m^2 (1 for a sun, whose power is W/m^2 already), 0 or more, and finite.
 class PreparedLight {
   public:
@@ -28,12 +28,12 @@ class PreparedLight {
     /// @param tolerance  relative error of the integrals for ellipses and spreads
     double irradiance(const glm::dvec3& point, const glm::dvec3& normal, double tolerance) const;
 
-    /// The same for a surface that faces the middle of the lamp: no cosine but the lamp's own.
+    /// The same for a surface that faces the center of the light: no cosine but the light's own.
     double facing_irradiance(const glm::dvec3& point, double tolerance) const;
 
-    /// Unit direction from the point to the middle of the lamp; against its axis where the point is there.
+    /// Unit direction from the point to the center of the light; against its axis where the point is there.
     glm::dvec3 to_light(const glm::dvec3& point) const;
-    /// Distance to the middle of the lamp, 0 for a sun.
+    /// Distance to the center of the light, 0 for a sun.
     double distance(const glm::dvec3& point) const;
 
     LightKind kind() const { return kind_; }
@@ -43,15 +43,15 @@ class PreparedLight {
     bool soft_falloff() const { return soft_falloff_; }
     double sin_sun_radius() const { return sin_sun_radius_; }
     const std::optional<SpotProfile>& spot() const { return spot_; }
-    /// The area lamp in units of `area_scale`.
+    /// The area light in units of `area_scale`.
     const std::optional<AreaEmitter>& area() const { return area_; }
     double area_scale() const { return area_scale_; }
     bool dark() const { return dark_; }
-    /// Columns: the lamp's x (along its tangent), y, and z (where it shines to), unit.
+    /// Columns: the light's x (along its tangent), y, and z (where it shines to), unit.
     const glm::dmat3& frame() const { return frame_; }
 
     /// Point and spot: what a facing receiver gets per unit of power, and the sine of the angular radius of
-    /// the lamp.
+    /// the light.
     struct BallTerm {
         double facing;
         double sin_radius;

@@ -15,9 +15,9 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// A circle of directions at one angle to the spot's axis is cut by the patch and by the horizon; what is
-/// left of it are one or two arcs. The azimuth counts from the middle of the patch.
+/// left of it are one or two arcs. The azimuth counts from the center of the patch.
 struct CircleOfDirections {
-    double patch_angle;     ///< of the middle of the patch to the axis
+    double patch_angle;     ///< of the center of the patch to the axis
     double patch_radius;    ///< angular
     double normal_angle;    ///< of the receiver's normal to the axis
     double normal_azimuth;  ///< 0 to pi
@@ -25,46 +25,47 @@ struct CircleOfDirections {
     /// Integral of the cosine to the receiver's normal over the arcs.
     double cosine_over_arcs(double angle) const {
         const double patch_half = patch_half_arc(angle);
-        const double level = std::cos(angle) * std::cos(normal_angle);
-        const double swing = std::sin(angle) * std::sin(normal_angle);
-        // Above the horizon where level + swing cos(azimuth - normal_azimuth) > 0.
-        double horizon_half = level > 0 ? pi : 0.0;
-        if (swing > std::abs(level)) horizon_half = std::acos(-level / swing);
+        const double constant_term = std::cos(angle) * std::cos(normal_angle);
+        const double cosine_term = std::sin(angle) * std::sin(normal_angle);
+        // Above the horizon where constant_term + cosine_term cos(azimuth - normal_azimuth) > 0.
+        double horizon_half = constant_term > 0 ? pi : 0.0;
+        if (cosine_term > std::abs(constant_term)) horizon_half = std::acos(-constant_term / cosine_term);
         double sum = 0;
         for (const double turn : {0.0, 2 * pi}) {
-            const double middle = normal_azimuth - turn;
-            const double from = std::max(-patch_half, middle - horizon_half);
-            const double to = std::min(patch_half, middle + horizon_half);
+            const double center = normal_azimuth - turn;
+            const double from = std::max(-patch_half, center - horizon_half);
+            const double to = std::min(patch_half, center + horizon_half);
             if (to > from)
-                sum += level * (to - from) + swing * (std::sin(to - middle) - std::sin(from - middle));
+                sum += constant_term * (to - from) +
+                       cosine_term * (std::sin(to - center) - std::sin(from - center));
         }
         return sum;
     }
 
     double patch_half_arc(double angle) const {
         if (angle + patch_angle <= patch_radius) return pi;
-        const double apart = std::abs(angle - patch_angle);
-        if (apart >= patch_radius) return 0.0;
+        const double separation = std::abs(angle - patch_angle);
+        if (separation >= patch_radius) return 0.0;
         // Half-angle form of the spherical law of cosines: nothing cancels for small patches.
-        const double square = std::sin(0.5 * (patch_radius + apart)) *
-                              std::sin(0.5 * (patch_radius - apart)) /
-                              (std::sin(angle) * std::sin(patch_angle));
-        return square >= 1.0 ? pi : 2.0 * std::asin(std::sqrt(square));
+        const double sin_half_sq = std::sin(0.5 * (patch_radius + separation)) *
+                                   std::sin(0.5 * (patch_radius - separation)) /
+                                   (std::sin(angle) * std::sin(patch_angle));
+        return sin_half_sq >= 1.0 ? pi : 2.0 * std::asin(std::sqrt(sin_half_sq));
     }
 };
 
-/// Angles to the axis where the rim of the patch meets the horizon; unused places hold 0.
+/// Angles to the axis where the rim of the patch meets the horizon; unused points hold 0.
 std::array<double, 2> rim_on_horizon(const glm::dvec3& normal, const glm::dvec3& to_light,
                                      const glm::dvec3& to_spot, double radius) {
     const double g = glm::dot(normal, to_light);
     const double rest = 1.0 - g * g;
     if (rest < 1e-14) return {0.0, 0.0};
     const double along = std::cos(radius) / rest;
-    const double square = (1.0 - std::cos(radius) * along) / rest;
-    if (square <= 0.0) return {0.0, 0.0};
-    const glm::dvec3 middle = along * (to_light - g * normal);
-    const glm::dvec3 side = std::sqrt(square) * glm::cross(to_light, normal);
-    return {angle_between(middle + side, to_spot), angle_between(middle - side, to_spot)};
+    const double sin_half_sq = (1.0 - std::cos(radius) * along) / rest;
+    if (sin_half_sq <= 0.0) return {0.0, 0.0};
+    const glm::dvec3 center = along * (to_light - g * normal);
+    const glm::dvec3 side = std::sqrt(sin_half_sq) * glm::cross(to_light, normal);
+    return {angle_between(center + side, to_spot), angle_between(center - side, to_spot)};
 }
 
 }  // namespace
@@ -80,12 +81,12 @@ SpotProfile::SpotProfile(double angle, double blend, bool with_cosine)
 double SpotProfile::at(double cos_angle) const {
     const double inside = cos_angle - cos_edge_;
     if (inside <= 0.0) return 0.0;
-    double share = 1.0;
+    double fraction = 1.0;
     if (inside < fade_) {
         const double t = inside / fade_;
-        share = t * t * (3.0 - 2.0 * t);
+        fraction = t * t * (3.0 - 2.0 * t);
     }
-    return with_cosine_ ? share * std::max(0.0, cos_angle) : share;
+    return with_cosine_ ? fraction * std::max(0.0, cos_angle) : fraction;
 }
 
 double cap_irradiance_through_spot(const SpotProfile& profile, const glm::dvec3& normal,
@@ -113,13 +114,13 @@ double cap_irradiance_through_spot(const SpotProfile& profile, const glm::dvec3&
     std::sort(cuts.begin(), cuts.end());
     double sum = 0;
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-        const double middle = 0.5 * (cuts[i] + cuts[i + 1]);
+        const double center = 0.5 * (cuts[i] + cuts[i + 1]);
         const double half = 0.5 * (cuts[i + 1] - cuts[i]);
         if (half <= 0.0) continue;
         // Arcs open like a square root at the ends of a piece; the sine takes that away.
         sum += half * integrate<16>(
                           [&](double x) {
-                              const double angle = middle + half * std::sin(x);
+                              const double angle = center + half * std::sin(x);
                               return std::cos(x) * std::sin(angle) * profile.at(std::cos(angle)) *
                                      circle.cosine_over_arcs(angle);
                           },

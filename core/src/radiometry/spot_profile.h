@@ -15,7 +15,7 @@ class SpotProfile {
     /// @param with_cosine  also times cos t (Blender 3.4)
     SpotProfile(double angle, double blend, bool with_cosine);
 
-    /// Share of the light at an angle to the axis, in [0, 1]; falls with the angle.
+    /// Fraction of the light at an angle to the axis, in [0, 1]; falls with the angle.
     double at(double cos_angle) const;
 
     /// Angle beyond which there is no light, and angle within which the cone does not fade, radians.
@@ -33,12 +33,12 @@ class SpotProfile {
     bool with_cosine_;
 };
 
-/// What a round patch of uniform radiance gives when it shines through a spot's profile, as a share of what a
+/// What a round patch of uniform radiance gives when it shines through a spot's profile, as a fraction of what a
 /// receiver facing the patch gets from it without a profile; in [0, 1]. One integral over the angle to the
 /// spot's axis, whose inner arc is in closed form; error below 1e-7.
 /// @param normal     receiver's normal, unit
-/// @param to_light   unit direction from the receiver to the middle of the patch
-/// @param to_spot    unit direction against the spot's axis: where a receiver on the axis sees the lamp
+/// @param to_light   unit direction from the receiver to the center of the patch
+/// @param to_spot    unit direction against the spot's axis: where a receiver on the axis sees the light
 /// @param sin_radius sine of the patch's angular radius, above 0, at most 1
 double cap_irradiance_through_spot(const SpotProfile& profile, const glm::dvec3& normal,
                                    const glm::dvec3& to_light, const glm::dvec3& to_spot, double sin_radius);

@@ -52,22 +52,22 @@ double SpreadIntegral::edge(const glm::dvec2& a, const glm::dvec2& b, const glm:
     if (offset == 0.0) return 0.0;
     const glm::dvec2 nearest = glm::dvec2(along.y, -along.x) * offset;
     // By the angle under which the receiver itself sees the edge: every scale of distances is smooth in it.
-    const double reach = std::sqrt(1.0 + offset * offset);
-    const double from = std::atan(glm::dot(a, along) / reach);
-    const double to = std::atan(glm::dot(b, along) / reach);
+    const double scale = std::sqrt(1.0 + offset * offset);
+    const double from = std::atan(glm::dot(a, along) / scale);
+    const double to = std::atan(glm::dot(b, along) / scale);
     const auto integrand = [&](double angle) {
         const double tangent = std::tan(angle);
-        const glm::dvec2 place = nearest + along * (reach * tangent);
-        const double square = glm::dot(place, place);
-        if (square == 0.0) return 0.0;
-        const double x = std::sqrt(square);
+        const glm::dvec2 on_edge = nearest + along * (scale * tangent);
+        const double radius_sq = glm::dot(on_edge, on_edge);
+        if (radius_sq == 0.0) return 0.0;
+        const double x = std::sqrt(radius_sq);
         const glm::dvec2 c = coefficients(x);
-        const double wedge = offset * reach * (1 + tangent * tangent) / square;  // d(phi) / d(angle)
-        return wedge * (-normal_z * c.x + glm::dot(normal_xy, place) / x * c.y);
+        const double wedge = offset * scale * (1 + tangent * tangent) / radius_sq;  // d(phi) / d(angle)
+        return wedge * (-normal_z * c.x + glm::dot(normal_xy, on_edge) / x * c.y);
     };
-    // Where the edge enters and leaves the disk beyond which the lamp does not shine.
-    const double square = tan_half_ * tan_half_ - offset * offset;
-    const double kink = square > 0 ? std::atan(std::sqrt(square) / reach) : 0.0;
+    // Where the edge enters and leaves the disk beyond which the light does not shine.
+    const double radius_sq = tan_half_ * tan_half_ - offset * offset;
+    const double kink = radius_sq > 0 ? std::atan(std::sqrt(radius_sq) / scale) : 0.0;
     const double first = std::clamp(-kink, from, to);
     const double last = std::clamp(kink, from, to);
     double sum = 0;

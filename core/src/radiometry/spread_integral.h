@@ -6,8 +6,8 @@
 
 namespace skinglow::detail {
 
-/// The radial half of the integral over a flat lamp whose radiance is (T - tan t) up to the angle whose
-/// tangent is T. About the foot of the perpendicular from the receiver to the lamp's plane, with x = tan t
+/// The radial half of the integral over a flat light whose radiance is (T - tan t) up to the angle whose
+/// tangent is T. About the foot of the perpendicular from the receiver to the light's plane, with x = tan t
 /// the distance to the foot in units of the height, a wedge d(phi) out to x contributes
 ///   d(phi) * integral from 0 to min(x, T) of (T - x) (x n_phi - n_z) x / (1 + x^2)^2 dx,
 /// n the receiver's normal, n_phi its component along the wedge. Everything is in closed form but the way

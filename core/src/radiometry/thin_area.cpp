@@ -49,12 +49,12 @@ double integrate_peak(const Function& f, double from, double to, std::array<doub
         [&](const auto& piece) { return integrate_adaptively(piece, -0.5 * pi, 0.5 * pi, allowed, 7); });
 }
 
-/// Integral of (level + slope u) / (line_sq + u^2)^2 over [from, to], where it is not negative, to about 1e-9 of itself.
+/// Integral of (height + slope u) / (line_sq + u^2)^2 over [from, to], where it is not negative, to about 1e-9 of itself.
 /// In closed form where that does not cancel, otherwise by Gauss's rule.
-double across_strip(double level, double slope, double line_sq, double from, double to) {
+double across_strip(double height, double slope, double line_sq, double from, double to) {
     const auto at = [&](double u) {
         const double distance_sq = line_sq + u * u;
-        return std::max(0.0, level + slope * u) / (distance_sq * distance_sq);
+        return std::max(0.0, height + slope * u) / (distance_sq * distance_sq);
     };
     const double width = to - from;
     const double nearest = std::clamp(0.0, from, to);
@@ -63,8 +63,8 @@ double across_strip(double level, double slope, double line_sq, double from, dou
     if (std::abs(nearest) > 4.0 * line) {
         const double end = nearest > 0.0 ? to : from;
         const double s0 = std::asinh(nearest / line);
-        const double reach = std::asinh(end / line) - s0;
-        const double s1 = s0 + std::clamp(reach, -6.0, 6.0);  // what is beyond is below 1e-7 of it
+        const double length = std::asinh(end / line) - s0;
+        const double s1 = s0 + std::clamp(length, -6.0, 6.0);  // what is beyond is below 1e-7 of it
         const double sum =
             integrate<16>([&](double s) { return line * std::cosh(s) * at(line * std::sinh(s)); }, s0, s1);
         return std::abs(sum);
@@ -74,7 +74,7 @@ double across_strip(double level, double slope, double line_sq, double from, dou
     const double angle = std::atan2(width * line, line_sq + from * to);
     const double even = 0.5 * (width * (line_sq - from * to) / (from_sq * to_sq) + angle / line) / line_sq;
     const double odd = 0.5 * width * (from + to) / (from_sq * to_sq);
-    return std::max(0.0, level * even + slope * odd);
+    return std::max(0.0, height * even + slope * odd);
 }
 
 /// Integral of f over [from, to], f being smooth but for what happens about 0 on the scale given.
@@ -112,19 +112,19 @@ double AreaEmitter::strip_irradiance(double half_x, double half_y, const glm::dv
         const double width = half_width(x);
         const double dx = x - point.x;
         const double line_sq = dx * dx + h * h;
-        const double level = normal.x * dx - normal.z * h;  // over the horizon, at the receiver's y
+        const double height = normal.x * dx - normal.z * h;  // over the horizon, at the receiver's y
         // Only what is within the beam and above the horizon.
         const double rim = std::sqrt(std::max(0.0, beam_sq - dx * dx));
         double from = std::max(-width - point.y, -rim);
         double to = std::min(width - point.y, rim);
-        const double horizon = -level / normal.y;
+        const double horizon = -height / normal.y;
         if (normal.y > 0.0) from = std::max(from, horizon);
         if (normal.y < 0.0) to = std::min(to, horizon);
-        if (!(to > from) || (normal.y == 0.0 && level <= 0.0)) return 0.0;
-        if (!spreads_) return h * across_strip(level, normal.y, line_sq, from, to);
+        if (!(to > from) || (normal.y == 0.0 && height <= 0.0)) return 0.0;
+        if (!spreads_) return h * across_strip(height, normal.y, line_sq, from, to);
         const auto at = [&](double u) {
             const double distance_sq = line_sq + u * u;
-            return std::max(0.0, level + normal.y * u) * gain(std::sqrt(dx * dx + u * u) / h) /
+            return std::max(0.0, height + normal.y * u) * gain(std::sqrt(dx * dx + u * u) / h) /
                    (distance_sq * distance_sq);
         };
         const double largest = std::max(std::abs(from), std::abs(to));

@@ -18,7 +18,7 @@ class FileError : public std::runtime_error {
 /// Always throws FileError.
 /// @param what    what is wrong with the file, with the value
 /// @param remedy  what to do about it
-/// @param where   the place in it, such as "key lights[2].color (line 14)"; empty: the file as a whole
+/// @param where   the position in it, such as "key lights[2].color (line 14)"; empty: the file as a whole
 [[noreturn]] void refuse_file(const std::filesystem::path& path, std::string_view what,
                               std::string_view remedy, std::string_view where = {});
 

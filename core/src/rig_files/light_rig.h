@@ -13,7 +13,7 @@
 
 namespace skinglow::detail {
 
-/// Lamps around a point of skin, with the numbers of Eq. 1 and 2 that go with them. As a file:
+/// Lights around a point of skin, with the numbers of Eq. 1 and 2 that go with them. As a file:
 /// docs/rig_format.md.
 struct LightRig {
     std::string name;
@@ -26,7 +26,7 @@ struct LightRig {
 /// Throws std::invalid_argument on a light, coefficient or weight that is not allowed.
 void validate(const LightRig& rig);
 
-/// Reads a rig file. Strict: a key that the format does not know is refused, as is one that the kind of lamp
+/// Reads a rig file. Strict: a key that the format does not know is refused, as is one that the kind of light
 /// has not. Throws FileError, naming key and line, on anything that docs/rig_format.md does not allow.
 LightRig read_light_rig(const std::filesystem::path& path);
 

@@ -15,8 +15,7 @@ using nlohmann::json;
 constexpr std::size_t max_json_bytes = std::size_t{64} << 20U;
 constexpr std::size_t max_json_depth = 16;
 
-/// Walks through the text and leaves its place where the listener below can see it: the parser tells of
-/// values, not of places.
+/// Iterator that counts the bytes consumed, since nlohmann's SAX callbacks carry no position.
 class WatchedIterator {
   public:
     using iterator_category = std::input_iterator_tag;

@@ -26,16 +26,16 @@ struct StudioLight {
     std::vector<std::string> notes;  ///< what the format holds and a sun cannot: ambient light, soft wrap
 };
 
-/// Power of the suns, W/m^2: a white Lambert surface that faces the lamp then has the radiance `col` of the
+/// Power of the suns, W/m^2: a white Lambert surface that faces the light then has the radiance `col` of the
 /// file, which is what Blender's solid view shows (radiance = irradiance / pi). Mode `paper` does not look at
 /// it.
 constexpr double studio_light_power = std::numbers::pi;
 
-/// Reads one of Blender's studio lights (*.sl), format version 1: lines "key value", four lamps light[0] to
+/// Reads one of Blender's studio lights (*.sl), format version 1: lines "key value", four lights light[0] to
 /// light[3], each with flag (1 on, 0 off), smooth, col (diffuse, linear), spec (highlights, left out here)
-/// and vec, the direction TOWARDS the lamp in view space: x right, y up, z towards the viewer. Each becomes a
+/// and vec, the direction TOWARDS the light in view space: x right, y up, z towards the viewer. Each becomes a
 /// sun that shines along -vec.
-/// @param camera  axes of the view that the lamps hang on; orthonormal, else std::invalid_argument
+/// @param camera  axes of the view that the lights hang on; orthonormal, else std::invalid_argument
 /// Throws FileError, naming line and key, on anything else, on a missing key and on a number that is not
 /// finite.
 StudioLight read_studio_light(const std::filesystem::path& path, const glm::dmat3& camera = front_view);
