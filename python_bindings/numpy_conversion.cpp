@@ -39,7 +39,7 @@ Array to_array(py::handle value, std::string_view name) {
     // What numpy casts to float64 as of the "same kind". It would also read text, drop imaginary parts and
     // count days.
     if (std::string_view("biuf").find(given.dtype().kind()) == std::string_view::npos) {
-        auto shown = py::repr(value).cast<std::string>();
+        auto shown = py::reinterpret_steal<py::str>(PyObject_ASCII(value.ptr())).cast<std::string>();
         constexpr std::size_t max_shown = 80;
         if (shown.size() > max_shown) shown = shown.substr(0, max_shown) + "...";
         refuse_argument(name, shown + ", of type " + py::str(given.dtype()).cast<std::string>(),
