@@ -1,5 +1,6 @@
 #include "numpy_conversion.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -40,6 +41,7 @@ Array to_array(py::handle value, std::string_view name) {
     // count days.
     if (std::string_view("biuf").find(given.dtype().kind()) == std::string_view::npos) {
         auto shown = py::reinterpret_steal<py::str>(PyObject_ASCII(value.ptr())).cast<std::string>();
+        std::replace(shown.begin(), shown.end(), '\n', ' ');
         constexpr std::size_t max_shown = 80;
         if (shown.size() > max_shown) shown = shown.substr(0, max_shown) + "...";
         refuse_argument(name, shown + ", of type " + py::str(given.dtype()).cast<std::string>(),
