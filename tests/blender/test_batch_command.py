@@ -132,7 +132,7 @@ def test_ctrl_c_ends_after_a_whole_picture(program: Program, tmp_path: Path) -> 
         finally:
             running.kill()
             running.wait()
-    assert "the same command goes on from here" in (tmp_path / "told.txt").read_text()
+    assert "run the same command to continue" in (tmp_path / "told.txt").read_text()
     entries = manifest(tmp_path)
     assert 1 <= len(entries) < 500
     assert {e["file"] for e in entries} == {f"Key/{p.name}" for p in (tmp_path / "Key").iterdir()}
