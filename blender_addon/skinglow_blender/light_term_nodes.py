@@ -50,6 +50,7 @@ def light_irradiance(build: NodeBuilder, light: LightTexels, far: FarSide, profi
     clamped = build.math("ADD", cosine, 0.0, clamp=True)
     for coefficient in far.angular[2::-1]:
         weight = build.vector("MULTIPLY_ADD", weight, clamped, coefficient)
+    weight = build.vector("MAXIMUM", weight, (0.0, 0.0, 0.0))
     strength = build.vector("MULTIPLY", light.strength[0], weight)
     return build.vector("SCALE", strength, factor)
 
