@@ -99,7 +99,7 @@ spot_angle    SPOT: full angle of the cone, 0 (no light) to pi
 spot_blend    SPOT: fraction of the cone that fades, 0 to 1
 spot_cosine   SPOT: also times the cosine to its axis (Blender 3.4 does this, 4.5 and later do not)
 area_shape    AREA: "RECTANGLE" ("SQUARE") or "ELLIPSE" ("DISK")
-size_x, size_y, tangent  AREA: full widths along and across tangent, a world direction; both widths 0: a small light
+size_x, size_y, tangent  AREA: full widths along and across tangent, a world direction; a width of 0 gives no light
 spread        AREA: full angle it shines into, 0 (no light) to pi (Lambert emitter)
 Raises ValueError naming light, field, value and what is allowed.)");
     light
@@ -107,8 +107,9 @@ Raises ValueError naming light, field, value and what is allowed.)");
              "position"_a = py::make_tuple(0.0, 0.0, 0.0), "direction"_a = py::make_tuple(0.0, 0.0, -1.0),
              "power"_a = 1.0, "name"_a = "", "visible"_a = true, py::kw_only(), "radius"_a = 0.0,
              "soft_falloff"_a = true, "sun_angle"_a = 0.0, "spot_angle"_a = std::numbers::pi / 4,
-             "spot_blend"_a = 0.15, "spot_cosine"_a = false, "area_shape"_a = "RECTANGLE", "size_x"_a = 0.0,
-             "size_y"_a = 0.0, "tangent"_a = py::make_tuple(1.0, 0.0, 0.0), "spread"_a = std::numbers::pi)
+             "spot_blend"_a = 0.15, "spot_cosine"_a = false, "area_shape"_a = "RECTANGLE",
+             "size_x"_a = AreaLight{}.size_x, "size_y"_a = AreaLight{}.size_y,
+             "tangent"_a = py::make_tuple(1.0, 0.0, 0.0), "spread"_a = std::numbers::pi)
         .def_property_readonly("kind", [](const Light& self) { return to_text(self.kind()); })
         .def_property_readonly("color", [](const Light& self) { return numpy::from_vec3(self.color()); })
         .def_property_readonly("position",

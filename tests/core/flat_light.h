@@ -20,8 +20,8 @@ struct FlatLight {
     double spot_blend = SpotLight{}.spot_blend;
     bool spot_cosine = false;
     AreaShape area_shape = AreaShape::rectangle;
-    double size_x = 0.0;
-    double size_y = 0.0;
+    double size_x = AreaLight{}.size_x;
+    double size_y = AreaLight{}.size_y;
     glm::dvec3 tangent{1.0, 0.0, 0.0};
     double spread = AreaLight{}.spread;
 

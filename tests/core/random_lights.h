@@ -48,8 +48,9 @@ class RandomScene {
         light.spot_blend = one_in(4) ? 0.0 : between(0.0, 1.0);
         light.spot_cosine = one_in(5);
         light.area_shape = one_in(2) ? AreaShape::ellipse : AreaShape::rectangle;
-        light.size_x = one_in(5) ? 0.0 : decades(0.01, 10.0);
-        light.size_y = one_in(5) ? 0.0 : decades(0.01, 10.0);
+        light.size_x = one_in(5) ? 1e-9 : decades(0.01, 10.0);
+        light.size_y = one_in(5) ? 1e-9 : decades(0.01, 10.0);
+        if (light.size_x == light.size_y) light.size_y = 0.0;  // gives no light
         light.tangent = unit_vector();
         light.spread = one_in(2) ? std::numbers::pi : between(0.05, std::numbers::pi);
         return light;

@@ -151,6 +151,18 @@ TEST(PovrayLights, AreFiniteForAnyLightThatIsAllowed) {
     EXPECT_GT(refused, 100);
 }
 
+TEST(PovrayLights, AreaLightWithASizeOfZeroIsLeftOut) {
+    PovrayScene scene = triangle();
+    scene.surface = PovraySurface{};
+    FlatLight light;
+    light.kind = LightKind::area;
+    scene.lights = {light};
+    EXPECT_TRUE(contains(povray_files(scene).at("lights.inc"), "light_source"));
+    light.size_y = 0.0;
+    scene.lights = {light};
+    EXPECT_FALSE(contains(povray_files(scene).at("lights.inc"), "light_source"));
+}
+
 TEST(PovrayLights, OfAnyLengthOfDirectionAndAnySpreadAreRight) {
     const auto lights_of = [](const Light& light) {
         PovrayScene scene = triangle();

@@ -38,7 +38,7 @@ struct RigData;
 
 /// Why lights are left out for an object.
 enum class DropReason {
-    off,          ///< hidden, power 0, black, or a cone or spread of no width
+    off,          ///< hidden, power 0, black, or a cone, spread or area of no width
     unreachable,  ///< the whole box is behind them or outside their cones: they give nothing
     negligible,   ///< together with all other dropped lights within the tolerance
 };
@@ -183,7 +183,7 @@ enum class LightState {
     hidden,  ///< not visible in the scene
     zero_power,
     black,         ///< color (0, 0, 0)
-    no_width,      ///< a cone or spread of 0
+    no_width,      ///< a cone, spread or area light's size of 0
     occluded,      ///< something stands between
     culled,        ///< left out within the tolerance
     behind_light,  ///< the point is behind an area light

@@ -83,14 +83,11 @@ void add_area(SdlText& text, const AreaLight& light, const PreparedLight& prepar
     add_point_at(text, prepared);
     text.add(" radius ").add(lambert ? falloff : 0.0).add(" falloff ").add(falloff);
     text.add(" tightness ").add(lambert ? 1.0 : spread_tightness(half_spread));
-    if (light.size_x > 0.0 || light.size_y > 0.0) {
-        // POV-Ray's samples reach the rim: nine of them over sqrt(8/10) of the width spread as the whole
-        // width does.
-        const double inner = std::sqrt(0.8);
-        text.add("\n  area_light ").add(inner * light.size_x * prepared.frame()[0]).add(", ");
-        text.add(inner * light.size_y * prepared.frame()[1]).add(", 9, 9 adaptive 1 area_illumination on");
-        if (light.area_shape == AreaShape::ellipse) text.add(" circular");
-    }
+    // POV-Ray's samples extend to the rim: nine of them over sqrt(8/10) of the width spread as the whole width does.
+    const double inner = std::sqrt(0.8);
+    text.add("\n  area_light ").add(inner * light.size_x * prepared.frame()[0]).add(", ");
+    text.add(inner * light.size_y * prepared.frame()[1]).add(", 9, 9 adaptive 1 area_illumination on");
+    if (light.area_shape == AreaShape::ellipse) text.add(" circular");
 }
 
 void add_sun(SdlText& text, const Light& light, const PreparedLight& prepared, const Box& bounds) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A light of no height is as good as this high, in units of its width: a line.
+/// A thinner light is as good as one this thin, in units of its width: a line.
 constexpr double thinnest = 1e-8;
 /// A light this small against its distance is a point with a cosine: the error is of the order of the square.
 constexpr double point_like = 1e-4;
@@ -46,7 +46,8 @@ PreparedLight::PreparedLight(const Light& light) : kind_(light.kind()), position
         dark_ = spot->spot_angle == 0.0;
     }
     if (area == nullptr) return;
-    dark_ = area->spread == 0.0;
+    // Cycles 3.4 to 5.2 gives no light from an area light with a size of exactly 0.
+    dark_ = area->spread == 0.0 || area->size_x == 0.0 || area->size_y == 0.0;
     area_scale_ = std::max({0.5 * area->size_x, 0.5 * area->size_y, smallest});
     area_.emplace(area->area_shape, std::max(0.5 * area->size_x / area_scale_, thinnest),
                   std::max(0.5 * area->size_y / area_scale_, thinnest),

@@ -73,7 +73,7 @@ class PreparedLight {
     std::optional<SpotProfile> spot_;
     std::optional<AreaEmitter> area_;  ///< in units of area_scale_, so that no size over- or underflows
     double area_scale_ = 1;
-    bool dark_ = false;  ///< a cone or spread of no width
+    bool dark_ = false;  ///< a cone, spread or area of no width
 };
 
 }  // namespace skinglow::detail

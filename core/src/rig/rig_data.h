@@ -20,7 +20,7 @@ struct RigLight {
     PreparedLight light;
     glm::dvec3 color;
     double power;
-    bool shines;  ///< on, and its cone or spread has a width
+    bool shines;  ///< on, and its cone, spread or area has a width
 
     /// Irradiance from what a unit of power gives. One factor for all channels: a black channel stays
     /// exactly black.

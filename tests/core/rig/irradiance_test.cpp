@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <skinglow/light.h>
+#include <skinglow/light_weights.h>
 #include <skinglow/rig.h>
+#include <skinglow/surface_lighting.h>
 
 #include <algorithm>
 #include <cmath>
@@ -80,7 +82,7 @@ TEST(Irradiance, FarAreaLampsOfEveryShapeAreAlike) {
     for (const AreaShape shape : {AreaShape::rectangle, AreaShape::ellipse}) {
         FlatLight light = lamp(LightKind::area, 100);
         light.area_shape = shape;
-        for (const double size : {0.0, 1e-30, 1e-9, 1e-5, 1e-3, 0.01}) {
+        for (const double size : {1e-300, 1e-30, 1e-9, 1e-5, 1e-3, 0.01}) {
             light.size_x = size;
             light.size_y = 0.5 * size;
             EXPECT_NEAR(irradiance_at({light}, glm::dvec3(0.0), {0, 0, 1}).r, 100 / (pi * 4), 1e-4) << size;
@@ -90,9 +92,36 @@ TEST(Irradiance, FarAreaLampsOfEveryShapeAreAlike) {
     }
     FlatLight line = lamp(LightKind::area, 100);
     line.size_x = 1.0;
+    line.size_y = 1e-9;
     // A Lambert line along x: integral of h^2 / (x^2 + h^2)^2 dx / (pi length).
     const double expected = 100 / pi * (0.5 / (4 + 0.25) + std::atan(0.25) / 2);
     EXPECT_NEAR(irradiance_at({line}, glm::dvec3(0.0), {0, 0, 1}).r, expected, 1e-6 * expected);
+}
+
+TEST(Irradiance, AreaLightWithASizeOfZeroGivesNone) {
+    // Measured: Cycles 3.4, 4.5, 5.0 and 5.2 render nothing of one (tests/blender/inside/light_units.py).
+    for (const AreaShape shape : {AreaShape::rectangle, AreaShape::ellipse}) {
+        for (const auto& [size_x, size_y] : {std::pair(0.0, 1.0), std::pair(1.0, 0.0), std::pair(0.0, 0.0)}) {
+            FlatLight light = lamp(LightKind::area, 100);
+            light.area_shape = shape;
+            light.size_x = size_x;
+            light.size_y = size_y;
+            const PreparedRig rig({light});
+            const Box box{glm::dvec3(-1.0), glm::dvec3(1.0)};
+            EXPECT_EQ(irradiance_at(rig, glm::dvec3(0.0), {0, 0, 1}), glm::dvec3(0.0));
+            EXPECT_EQ(object_irradiance(rig, glm::dvec3(0.0)), glm::dvec3(0.0));
+            const glm::dvec3 origin(0.0);
+            const glm::dvec3 up(0, 0, 1);
+            EXPECT_EQ(surface_irradiance(rig, {&origin, 1}, {&up, 1})[0], glm::dvec3(0.0));
+            EXPECT_EQ(rig.cull(box, 0.0).dropped[0].reason, DropReason::off);
+            EXPECT_TRUE(SurfaceLighting(rig, box).terms().empty());
+            EXPECT_EQ(light_weight(rig.lights(), glm::dvec3(0.0)),
+                      glm::dvec3(0.2));  // mode `paper`: 1 / (1 + 2^2)
+            light.size_x = std::max(size_x, std::numeric_limits<double>::denorm_min());
+            light.size_y = std::max(size_y, std::numeric_limits<double>::denorm_min());
+            EXPECT_GT(irradiance_at({light}, glm::dvec3(0.0), {0, 0, 1}).r, 5.0);
+        }
+    }
 }
 
 TEST(Irradiance, ObjectWeightIsTheSumOfFacingSurfacesInAnyOrder) {

@@ -44,7 +44,7 @@ TEST(LightReport, TellsDistanceAnglesWeightAndShare) {
 }
 
 TEST(LightReport, NamesEveryReason) {
-    std::vector<FlatLight> lights(11, lamp(LightKind::point, {0, 0, 2}));
+    std::vector<FlatLight> lights(12, lamp(LightKind::point, {0, 0, 2}));
     lights[1].visible = false;
     lights[2].power = 0;
     lights[3].color = glm::dvec3(0.0);
@@ -55,14 +55,16 @@ TEST(LightReport, NamesEveryReason) {
     lights[7] = lamp(LightKind::area, {5, 0, 2});
     lights[7].spread = 0.5;
     lights[10].position = {0, 0, 1e200};
+    lights[11] = lamp(LightKind::area, {0, 0, 2});
+    lights[11].size_y = 0;
     std::vector<bool> occluded(lights.size());
     occluded[8] = true;
-    const std::vector<std::size_t> kept = {0, 1, 2, 3, 4, 5, 6, 7, 8, 10};
+    const std::vector<std::size_t> kept = {0, 1, 2, 3, 4, 5, 6, 7, 8, 10, 11};
     const std::vector<LightReportEntry> report =
         light_report(made(lights), glm::dvec3(0.0), std::nullopt, occluded, kept);
     const std::vector<std::string> expected = {"shines",       "hidden",   "zero power",   "black",
                                                "outside cone", "no width", "behind light", "outside cone",
-                                               "occluded",     "culled",   "too weak"};
+                                               "occluded",     "culled",   "too weak",     "no width"};
     for (std::size_t i = 0; i < expected.size(); ++i) {
         EXPECT_EQ(to_text(report[i].state), expected[i]) << i;
         EXPECT_EQ(report[i].share, i == 0 ? 1.0 : 0.0) << i;
