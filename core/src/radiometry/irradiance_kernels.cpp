@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -23,8 +24,7 @@ namespace skinglow::detail::HWY_NAMESPACE {
 
 HWY_INLINE Irradiance sun(const KernelLight& light, const Receivers& r) {
     const V cosine = dot(r.normal, set(light.reverse_axis));
-    const bool is_disk = light.sin_sun_radius > 0.0;
-    return {positive(cosine), cosine, is_disk ? hn::Abs(cosine) < set(light.sin_sun_radius) : nowhere()};
+    return {positive(cosine), cosine, hn::Abs(cosine) < set(light.sin_sun_radius)};
 }
 
 /// A lit ball, or the point it shrinks to; a spot's is multiplied by its profile.
@@ -60,78 +60,98 @@ HWY_INLINE Irradiance ball(const KernelLight& light, const Receivers& r, bool is
     return {value * profile, cosine, special};
 }
 
-HWY_INLINE Irradiance irradiance_of(const KernelLight& light, const Receivers& r) {
-    switch (light.kernel) {
-        case KernelLight::Kernel::sun:
-            return sun(light, r);
-        case KernelLight::Kernel::point:
-            return ball(light, r, false);
-        case KernelLight::Kernel::spot:
-            return ball(light, r, true);
-        case KernelLight::Kernel::rectangle:
-            return rectangle(light, r);
-        case KernelLight::Kernel::none:
-            break;
-    }
+HWY_INLINE Irradiance point(const KernelLight& light, const Receivers& r) {
+    return ball(light, r, false);
+}
+HWY_INLINE Irradiance spot(const KernelLight& light, const Receivers& r) {
+    return ball(light, r, true);
+}
+HWY_INLINE Irradiance none(const KernelLight& /*light*/, const Receivers& /*r*/) {
     return {zero(), zero(), hn::Not(nowhere())};
 }
 
+/// Lights of one kernel, so that the choice is made once for all of them.
+using Run = std::span<const KernelLight>;
+using Runs = std::array<Run, 1 + static_cast<std::size_t>(KernelLight::Kernel::none)>;
+
 using Lanes = std::array<double, HWY_MAX_BYTES / sizeof(double)>;
 
-/// Adds a light point by point, where angles count or one of the points is special.
-HWY_NOINLINE void add_lanes(const IrradianceSum& sum, const KernelLight& light, const glm::dvec3* points,
-                            const glm::dvec3* unit_normals, std::size_t count, const Irradiance& e,
-                            glm::dvec3* sums) {
+/// A vector of points, of which the first `count` are wanted; all arrays are as long as a vector.
+struct Points {
+    const IrradianceSum& sum;
+    const glm::dvec3* points;
+    std::size_t count;
+    glm::dvec3* sums;
+};
+
+/// Adds a light point by point: at the special ones, or at all where angles count.
+HWY_NOINLINE void add_lanes(const Points& p, const KernelLight& light, Irradiance e, V3 normal) {
     Lanes value;
     Lanes cosine;
     const V unknown = set(std::numeric_limits<double>::quiet_NaN());
     hn::StoreU(hn::IfThenElse(e.special, unknown, e.value), d, value.data());
     hn::StoreU(hn::IfThenElse(e.special, unknown, e.cosine), d, cosine.data());
-    for (std::size_t i = 0; i < count; ++i)
-        sum.add_one(light, points[i], unit_normals[i], value[i], cosine[i], sums[i]);
+    std::array<glm::dvec3, std::tuple_size_v<Lanes>> unit_normals;
+    hn::StoreInterleaved3(normal.x, normal.y, normal.z, d, &unit_normals[0].x);
+    for (std::size_t i = 0; i < p.count; ++i) {
+        if (p.sum.has_angular_weight() || std::isnan(value[i]))
+            p.sum.add_one(light, p.points[i], unit_normals[i], value[i], cosine[i], p.sums[i]);
+    }
 }
 
-/// `count` points, at most as many as a vector has lanes; all arrays are as long as a vector.
-HWY_INLINE void add_vector(const IrradianceSum& sum, std::span<const KernelLight> lights,
-                           const glm::dvec3* points, const glm::dvec3* normals, std::size_t count,
-                           glm::dvec3* sums) {
+HWY_INLINE V3 plus(V3 total, const KernelLight& light, V value) {
+    return {hn::MulAdd(set(light.strength.r), value, total.x),
+            hn::MulAdd(set(light.strength.g), value, total.y),
+            hn::MulAdd(set(light.strength.b), value, total.z)};
+}
+
+/// Adds lights that one kernel serves.
+template <Irradiance (*kernel)(const KernelLight&, const Receivers&)>
+HWY_INLINE V3 add_run(V3 total, Run run, const Points& p, const Receivers& r) {
+    const bool by_lane = p.sum.has_angular_weight();
+    const KernelLight* light = run.data();
+    const KernelLight* const end = light + run.size();
+    for (; light != end; ++light) {
+        // A loop without calls and without values that outlive it: all stays in registers.
+        for (; light != end && !by_lane; ++light) {
+            const Irradiance e = kernel(*light, r);
+            if (!hn::AllFalse(d, e.special)) break;
+            total = plus(total, *light, e.value);
+        }
+        if (light == end) break;
+        const Irradiance e = kernel(*light, r);
+        if (!by_lane) total = plus(total, *light, hn::IfThenZeroElse(e.special, e.value));
+        add_lanes(p, *light, e, r.normal);
+    }
+    return total;
+}
+
+HWY_INLINE void add_vector(const IrradianceSum& sum, const Runs& runs, const glm::dvec3* points,
+                           const glm::dvec3* normals, std::size_t count, glm::dvec3* sums) {
     Receivers r;
     hn::LoadInterleaved3(d, &points->x, r.point.x, r.point.y, r.point.z);
     hn::LoadInterleaved3(d, &normals->x, r.normal.x, r.normal.y, r.normal.z);
-    const auto largest = [](V3 v)
-                             HWY_ATTR { return hn::Max(hn::Max(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z)); };
-    const V longest = largest(r.normal);
-    const M usual_normal = hn::Or(longest == zero(), hn::And(longest > set(1e-140), longest < set(1e140)));
-    const auto below = [](V3 v, double limit) HWY_ATTR {
-        // Not by the largest: Max may drop a NaN.
-        return hn::And(hn::Abs(v.x) < set(limit),
-                       hn::And(hn::Abs(v.y) < set(limit), hn::Abs(v.z) < set(limit)));
-    };
-    if (!hn::AllTrue(d, hn::And(hn::And(usual_normal, below(r.normal, 1e140)), below(r.point, 1e70)))) {
-        for (std::size_t i = 0; i < count; ++i) sum.add_one_by_one(lights, points[i], normals[i], sums[i]);
+    const V size = hn::Abs(r.normal.x) + hn::Abs(r.normal.y) + hn::Abs(r.normal.z);
+    const V length_sq = dot(r.normal, r.normal);
+    const M usual_normal = hn::Or(size == zero(), hn::And(length_sq > set(1e-280), length_sq < set(1e280)));
+    // Not so where something is not finite.
+    if (!hn::AllTrue(d, hn::And(usual_normal, dot(r.point, r.point) < set(1e140)))) {
+        for (std::size_t i = 0; i < count; ++i) {
+            for (const Run run : runs) sum.add_one_by_one(run, points[i], normals[i], sums[i]);
+        }
         return;
     }
-    const V scale = set(1.0) / hn::Sqrt(hn::Max(dot(r.normal, r.normal), set(1e-300)));
+    const V scale = set(1.0) / hn::Sqrt(hn::Max(length_sq, set(1e-300)));
     r.normal = {r.normal.x * scale, r.normal.y * scale, r.normal.z * scale};
-    std::array<glm::dvec3, std::tuple_size_v<Lanes>> unit_normals;
-    hn::StoreInterleaved3(r.normal.x, r.normal.y, r.normal.z, d, &unit_normals[0].x);
 
+    const Points p{sum, points, count, sums};
+    const auto run = [&](KernelLight::Kernel kernel) { return runs[static_cast<std::size_t>(kernel)]; };
     V3 total{zero(), zero(), zero()};
-    const KernelLight* light = lights.data();
-    const KernelLight* const end = light + lights.size();
-    for (; light != end; ++light) {
-        Irradiance e{zero(), zero(), nowhere()};
-        // A loop of its own, without calls, so that the totals stay in registers.
-        for (; light != end; ++light) {
-            e = irradiance_of(*light, r);
-            if (sum.has_angular_weight() || !hn::AllFalse(d, e.special)) break;
-            total.x = hn::MulAdd(set(light->strength.r), e.value, total.x);
-            total.y = hn::MulAdd(set(light->strength.g), e.value, total.y);
-            total.z = hn::MulAdd(set(light->strength.b), e.value, total.z);
-        }
-        if (light == end) break;
-        add_lanes(sum, *light, points, unit_normals.data(), count, e, sums);
-    }
+    total = add_run<sun>(total, run(KernelLight::Kernel::sun), p, r);
+    total = add_run<point>(total, run(KernelLight::Kernel::point), p, r);
+    total = add_run<spot>(total, run(KernelLight::Kernel::spot), p, r);
+    total = add_run<rectangle>(total, run(KernelLight::Kernel::rectangle), p, r);
+    total = add_run<none>(total, run(KernelLight::Kernel::none), p, r);
     V3 before;
     hn::LoadInterleaved3(d, &sums->x, before.x, before.y, before.z);
     hn::StoreInterleaved3(before.x + total.x, before.y + total.y, before.z + total.z, d, &sums->x);
@@ -145,16 +165,21 @@ void add_irradiance(const IrradianceSum& sum, std::span<const glm::dvec3> points
     do {  // once without lights too: what is not finite has to show
         const std::span<const KernelLight> lights = rest.first(std::min(rest.size(), lights_at_once));
         rest = rest.subspan(lights.size());
+        Runs runs;
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            Run& run = runs[static_cast<std::size_t>(lights[i].kernel)];
+            run = {run.empty() ? &lights[i] : run.data(), run.size() + 1};
+        }
         std::size_t i = 0;
         for (; i + lanes <= points.size(); i += lanes)
-            add_vector(sum, lights, &points[i], &normals[i], lanes, &sums[i]);
+            add_vector(sum, runs, &points[i], &normals[i], lanes, &sums[i]);
         if (i == points.size()) continue;
         std::array<std::array<glm::dvec3, std::tuple_size_v<Lanes>>, 3> last{};
         const std::size_t count = points.size() - i;
         std::copy_n(&points[i], count, last[0].begin());
         std::copy_n(&normals[i], count, last[1].begin());
         std::copy_n(&sums[i], count, last[2].begin());
-        add_vector(sum, lights, last[0].data(), last[1].data(), count, last[2].data());
+        add_vector(sum, runs, last[0].data(), last[1].data(), count, last[2].data());
         std::copy_n(last[2].begin(), count, &sums[i]);
     } while (!rest.empty());
 }

@@ -70,9 +70,12 @@ IrradianceSum::IrradianceSum(std::span<const WeightedLight> lights, const Angula
         if (k.kernel == Kernel::point || k.kernel == Kernel::spot) set_ball(k, *light);
         if (k.kernel == Kernel::rectangle) set_rectangle(k, *light);
         lights_.push_back(k);
-        if (angular_weight == nullptr) continue;
+    }
+    std::ranges::stable_sort(lights_, {}, &KernelLight::kernel);
+    if (angular_weight == nullptr) return;
+    for (const KernelLight& k : lights_) {
         area_weights_.emplace_back();
-        if (light->area()) area_weights_.back().emplace(*light, *angular_weight);
+        if (k.light->area()) area_weights_.back().emplace(*k.light, *angular_weight);
     }
 }
 

@@ -21,9 +21,9 @@ struct WeightedLight {
 
 /// What the vector kernels read of a light; which fields depends on the kernel.
 struct KernelLight {
-    enum class Kernel { none, sun, point, spot, rectangle };
+    enum class Kernel { sun, point, spot, rectangle, none };  // none: asked point by point
 
-    Kernel kernel = Kernel::none;  ///< none: asked point by point
+    Kernel kernel = Kernel::none;
     const PreparedLight* light = nullptr;
     glm::dvec3 strength{0.0};
     glm::dvec3 position{0.0};
@@ -70,6 +70,7 @@ class IrradianceSum {
     void add_one_by_one(std::span<const KernelLight> lights, const glm::dvec3& point,
                         const glm::dvec3& normal, glm::dvec3& sum) const;
 
+    /// Lights of one kernel stand together.
     std::span<const KernelLight> lights() const { return lights_; }
     bool has_angular_weight() const { return angular_weight_ != nullptr; }
 

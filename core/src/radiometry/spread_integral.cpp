@@ -9,20 +9,19 @@
 namespace skinglow::detail {
 namespace {
 
-constexpr double small =
-    0.05;  ///< below it the closed forms cancel and the series, cut at x^10, are exact to 1e-13
-
 /// Integral of x^2 / (1 + x^2)^2 from 0.
 double second_moment(double x) {
     const double s = x * x;
-    if (x < small) return x * s * (1.0 / 3 + s * (-2.0 / 5 + s * (3.0 / 7 + s * (-4.0 / 9 + s * 5.0 / 11))));
+    if (x < small_tangent)
+        return x * s * (1.0 / 3 + s * (-2.0 / 5 + s * (3.0 / 7 + s * (-4.0 / 9 + s * 5.0 / 11))));
     return 0.5 * (std::atan(x) - x / (1 + s));
 }
 
 /// Integral of x^3 / (1 + x^2)^2 from 0.
 double third_moment(double x) {
     const double s = x * x;
-    if (x < small) return s * s * (1.0 / 4 + s * (-2.0 / 6 + s * (3.0 / 8 + s * (-4.0 / 10 + s * 5.0 / 12))));
+    if (x < small_tangent)
+        return s * s * (1.0 / 4 + s * (-2.0 / 6 + s * (3.0 / 8 + s * (-4.0 / 10 + s * 5.0 / 12))));
     return 0.5 * (std::log1p(s) - s / (1 + s));
 }
 
@@ -30,9 +29,7 @@ double third_moment(double x) {
 
 double tangent_minus_angle(double tangent) {
     const double s = tangent * tangent;
-    if (tangent < small) {
-        return tangent * s * (1.0 / 3 + s * (-1.0 / 5 + s * (1.0 / 7 + s * (-1.0 / 9 + s / 11))));
-    }
+    if (tangent < small_tangent) return tangent * s * tangent_series(s);
     return tangent - std::atan(tangent);
 }
 

@@ -31,6 +31,14 @@ class SpreadIntegral {
     double tan_half_;
 };
 
+/// Below it closed forms cancel, and the series, cut at x^10, are exact to 1e-13.
+constexpr double small_tangent = 0.05;
+
+/// (tan(a) - a) / tan(a)^3 by its series in tan(a)^2, for tangents below small_tangent.
+constexpr double tangent_series(double s) {
+    return 1.0 / 3 + s * (-1.0 / 5 + s * (1.0 / 7 + s * (-1.0 / 9 + s / 11)));
+}
+
 /// tan(a) - a without cancellation, for a given tan(a) of 0 or more.
 double tangent_minus_angle(double tangent);
 
