@@ -122,6 +122,7 @@ bool fill_unknown(std::span<double> logs) {
 
 std::vector<Medium> inner_media(const Tissue& tissue, std::span<const double> wavelength_nm) {
     std::vector<Medium> media;
+    media.reserve(wavelength_nm.size());
     for (const SkinMedia& skin : SkinOptics(tissue, wavelength_nm).media) {
         media.emplace_back(skin.inner.absorption, skin.inner.scattering * (1.0 - skin.inner.anisotropy));
     }
@@ -185,16 +186,19 @@ SpectralNodes spectral_nodes(const Tissue& tissue, int count) {
         return media[a].attenuation < media[b].attenuation;
     });
     std::vector<Medium> sorted;
+    sorted.reserve(order.size());
     for (const std::size_t k : order) sorted.push_back(media[k]);
 
     // The nodes, evenly spread, and what plates of their media transmit.
     const double first = sorted.front().attenuation;
     const double last = std::min(sorted.back().attenuation, std::max(largest_node_attenuation, 2.0 * first));
     std::vector<Place> places;
+    places.reserve(static_cast<std::size_t>(count));
     std::vector<double> at;
     std::vector<double> thin;   // logarithm of the transmittance at the first thickness, per node
     std::vector<double> falls;  // and by how much it falls to the second
     std::vector<Medium> node_media;
+    node_media.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
         const Place place = place_of(sorted, first + (last - first) * i / (count - 1));
         const Medium& a = sorted[place.below];
