@@ -1,0 +1,263 @@
+#include "shape/spectral_nodes.h"
+
+#include <skinglow/slab.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "numerics/argument_check.h"
+#include "skin/skin_optics.h"
+
+namespace skinglow::detail {
+namespace {
+
+/// Where plane skin is made exact. Of the pairs tried, the one that leaves the least error over 1 to 8 mm.
+constexpr std::array<double, 2> exact_at_mm = {1.5, 6.0};
+
+/// Nodes lie below this effective attenuation, 1/mm: light that is dimmed more strongly is no longer seen
+/// behind 1 mm of skin, and no grid of cells resolves it.
+constexpr double largest_node_attenuation = 4.0;
+
+/// Flesh so absorbing that skin without it is brighter makes no light: nothing of it is seen behind 1 mm.
+constexpr double largest_factor = 4.0;
+
+/// Transmittances below are taken as none.
+constexpr double darkest = 1e-250;
+
+/// Of light that scatters isotropically, in diffusion, 1/mm: the coordinate that nodes are spread over.
+double effective_attenuation(double absorption, double reduced_scattering) {
+    return std::sqrt(3.0 * absorption * (absorption + reduced_scattering));
+}
+
+/// A wavelength's or node's medium.
+struct Medium {
+    double absorption;
+    double reduced_scattering;
+    double attenuation;
+
+    Medium(double mua, double mus)
+        : absorption(mua), reduced_scattering(mus), attenuation(effective_attenuation(mua, mus)) {}
+};
+
+/// Plane skin at the two thicknesses: the logarithm of what comes through.
+using TwoLogs = std::array<double, exact_at_mm.size()>;
+
+/// The polynomial through values at the nodes, and straight lines beyond the first and the last.
+class NodeInterpolation {
+  public:
+    explicit NodeInterpolation(std::vector<double> at) : at_(std::move(at)) {}
+
+    /// Weights, segment and whether the place lies between nodes; no matrix yet.
+    SpectralNodes::Sample at(double x) const {
+        SpectralNodes::Sample sample;
+        const auto above = std::upper_bound(at_.begin() + 1, at_.end() - 1, x);
+        sample.segment = static_cast<std::size_t>(above - at_.begin()) - 1;
+        sample.between = x >= at_.front() && x <= at_.back();
+        if (!sample.between) {
+            const double left = at_[sample.segment];
+            const double t = (x - left) / (at_[sample.segment + 1] - left);
+            sample.weight[sample.segment] = 1.0 - t;
+            sample.weight[sample.segment + 1] = t;
+            return sample;
+        }
+        for (std::size_t i = 0; i < at_.size(); ++i) {
+            double weight = 1.0;
+            for (std::size_t j = 0; j < at_.size(); ++j) {
+                if (j != i) weight *= (x - at_[j]) / (at_[i] - at_[j]);
+            }
+            sample.weight[i] = weight;
+        }
+        return sample;
+    }
+
+  private:
+    std::vector<double> at_;
+};
+
+/// Of the logarithm, beyond the first or last node: noise of nodes could make it any.
+constexpr double largest_gain = 2.0;
+
+/// A polynomial may swing between nodes that differ by orders of magnitude: it stays between its neighbors.
+double value_of(const SpectralNodes::Sample& sample, std::span<const double> at_nodes) {
+    double value = 0.0;
+    for (std::size_t i = 0; i < at_nodes.size(); ++i) value += sample.weight[i] * at_nodes[i];
+    if (!sample.between) return value;
+    const auto [low, high] = std::minmax(at_nodes[sample.segment], at_nodes[sample.segment + 1]);
+    return std::clamp(value, low, high);
+}
+
+/// Logarithm of what is not above 0.
+constexpr double unknown = -std::numeric_limits<double>::infinity();
+
+/// Replaces unknown logarithms by those of the next known nodes: on a line between two, as the first before
+/// it, on the line of the last two beyond them. False where none is known.
+bool fill_unknown(std::span<double> logs) {
+    std::array<std::size_t, SpectralNodes::max_count> known{};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < logs.size(); ++i) {
+        if (logs[i] != unknown) known[count++] = i;
+    }
+    if (count == 0) return false;
+    if (count == logs.size()) return true;
+    const std::size_t last = known[count - 1];
+    for (std::size_t i = 0, next = 0; i < logs.size(); ++i) {
+        if (i == known[next]) {
+            next = std::min(next + 1, count - 1);
+        } else if (i < known[0] || count == 1) {
+            logs[i] = logs[known[0]];
+        } else {
+            const std::size_t b = i > last ? last : known[next];
+            const std::size_t a = i > last ? known[count - 2] : known[next - 1];
+            const double slope = (logs[b] - logs[a]) / static_cast<double>(b - a);
+            logs[i] = logs[b] + (i > b ? std::min(0.0, slope) * static_cast<double>(i - b)
+                                       : -slope * static_cast<double>(b - i));
+        }
+    }
+    return true;
+}
+
+std::vector<Medium> inner_media(const Tissue& tissue, std::span<const double> wavelength_nm) {
+    std::vector<Medium> media;
+    media.reserve(wavelength_nm.size());
+    for (const SkinMedia& skin : SkinOptics(tissue, wavelength_nm).media) {
+        media.emplace_back(skin.inner.absorption, skin.inner.scattering * (1.0 - skin.inner.anisotropy));
+    }
+    return media;
+}
+
+/// A medium on the line that the wavelengths' media form when they are sorted by attenuation.
+struct Place {
+    std::size_t below;  ///< among the sorted
+    double fraction;    ///< of the way to the next one
+};
+Place place_of(std::span<const Medium> sorted, double attenuation) {
+    const auto above = std::upper_bound(sorted.begin() + 1, sorted.end() - 1, attenuation,
+                                        [](double x, const Medium& m) { return x < m.attenuation; });
+    const auto below = static_cast<std::size_t>(above - sorted.begin()) - 1;
+    const double step = sorted[below + 1].attenuation - sorted[below].attenuation;
+    const double fraction = step > 0.0 ? (attenuation - sorted[below].attenuation) / step : 0.0;
+    return {below, std::clamp(fraction, 0.0, 1.0)};
+}
+
+/// What comes through a plate of a node's medium in air.
+TwoLogs plate(const Medium& medium, double refractive_index) {
+    const Layer layer{.refractive_index = refractive_index,
+                      .absorption = medium.absorption,
+                      .scattering = medium.reduced_scattering};
+    const ThicknessCurve curve({&layer, 1}, 0, Incidence::diffuse());
+    TwoLogs logs{};
+    for (std::size_t i = 0; i < logs.size(); ++i) {
+        logs[i] = std::log(std::max(curve.transmittance(exact_at_mm[i]), darkest));
+    }
+    return logs;
+}
+
+/// The place between nodes whose light falls from the first to the second thickness as the skin's does. It
+/// falls the faster, the farther right.
+double matching_place(const NodeInterpolation& nodes, std::span<const double> falls, double fall,
+                      double end) {
+    double low = 0.0;
+    double high = end;
+    for (int i = 0; i < 60; ++i) {
+        const double center = 0.5 * (low + high);
+        (value_of(nodes.at(center), falls) < fall ? low : high) = center;
+    }
+    return 0.5 * (low + high);
+}
+
+}  // namespace
+
+SpectralNodes spectral_nodes(const Tissue& tissue, int count) {
+    if (count < SpectralNodes::min_count || count > SpectralNodes::max_count) {
+        refuse_argument("count of spectral nodes", std::to_string(count), "2 to 8");
+    }
+    Spectrum wavelength_nm{};
+    for (std::size_t k = 0; k < spectral_samples; ++k) wavelength_nm[k] = sample_wavelength_nm(k);
+    const std::vector<double> skin = transmittance(tissue, exact_at_mm, wavelength_nm, Incidence::diffuse());
+
+    const std::vector<Medium> media = inner_media(tissue, wavelength_nm);
+    std::vector<std::size_t> order(media.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return media[a].attenuation < media[b].attenuation;
+    });
+    std::vector<Medium> sorted;
+    sorted.reserve(order.size());
+    for (const std::size_t k : order) sorted.push_back(media[k]);
+
+    // The nodes, evenly spread, and what plates of their media transmit.
+    const double first = sorted.front().attenuation;
+    const double last = std::min(sorted.back().attenuation, std::max(largest_node_attenuation, 2.0 * first));
+    std::vector<Place> places;
+    places.reserve(static_cast<std::size_t>(count));
+    std::vector<double> at;
+    std::vector<double> thin;   // logarithm of the transmittance at the first thickness, per node
+    std::vector<double> falls;  // and by how much it falls to the second
+    std::vector<Medium> node_media;
+    node_media.reserve(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) {
+        const Place place = place_of(sorted, first + (last - first) * i / (count - 1));
+        const Medium& a = sorted[place.below];
+        const Medium& b = sorted[place.below + 1];
+        const Medium medium(std::lerp(a.absorption, b.absorption, place.fraction),
+                            std::lerp(a.reduced_scattering, b.reduced_scattering, place.fraction));
+        const TwoLogs logs = plate(medium, tissue.refractive_index);
+        places.push_back(place);
+        node_media.push_back(medium);
+        at.push_back(medium.attenuation);
+        thin.push_back(logs[0]);
+        falls.push_back(logs[0] - logs[1]);
+    }
+
+    const NodeInterpolation interpolation(at);
+    SpectralNodes result{.nodes = {}, .refractive_index = tissue.refractive_index, .samples = {}};
+    std::vector<double> factors(spectral_samples, 0.0);
+    for (std::size_t k = 0; k < spectral_samples; ++k) {
+        const double through_thin = skin[k];
+        const double through_thick = std::max(skin[spectral_samples + k], darkest);
+        if (!(through_thin > darkest)) continue;
+        const double x =
+            matching_place(interpolation, falls, std::log(through_thin / through_thick), 10.0 * at.back());
+        SpectralNodes::Sample sample = interpolation.at(x);
+        factors[k] = std::min(largest_factor, std::exp(std::log(through_thin) - value_of(sample, thin)));
+        Spectrum one{};
+        one[k] = 1.0;
+        sample.matrix = factors[k] * transmission_matrix(one);
+        result.samples.push_back(sample);
+    }
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        constexpr double smallest_factor = 1e-12;  // of a node behind an epidermis that lets nothing through
+        const Place& place = places[i];
+        const double factor =
+            std::sqrt(std::max(smallest_factor, std::lerp(factors[order[place.below]],
+                                                          factors[order[place.below + 1]], place.fraction)));
+        result.nodes.push_back({node_media[i].absorption, node_media[i].reduced_scattering, factor, factor});
+    }
+    return result;
+}
+
+glm::dmat3 SpectralNodes::combine(std::span<const double> exitance_at_nodes) const {
+    if (exitance_at_nodes.size() != nodes.size()) {
+        refuse_argument("exitance_at_nodes", std::to_string(exitance_at_nodes.size()) + " values",
+                        "one for each of " + std::to_string(nodes.size()) + " nodes");
+    }
+    std::array<double, max_count> logs{};
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const double inside = exitance_at_nodes[i] / (nodes[i].entry_factor * nodes[i].exit_factor);
+        logs[i] = inside > 0.0 ? std::log(inside) : unknown;
+    }
+    const std::span known = std::span(logs).first(nodes.size());
+    glm::dmat3 matrix(0.0);
+    if (!fill_unknown(known)) return matrix;
+    const double limit = *std::max_element(known.begin(), known.end()) + largest_gain;
+    for (const Sample& sample : samples) {
+        matrix += std::exp(std::min(value_of(sample, known), limit)) * sample.matrix;
+    }
+    return matrix;
+}
+
+}  // namespace skinglow::detail
