@@ -3,12 +3,15 @@
 # Folders with just those headers that a portable build may see, none of the machine's C library.
 gather_headers() {
     rm -rf "$portable/headers"
-    mkdir -p "$portable/headers/glm/include" "$portable/headers/nlohmann_json/include" "$portable/headers/debian"
+    mkdir -p "$portable/headers/glm/include" "$portable/headers/nlohmann_json/include" \
+        "$portable/headers/fast_float/include" "$portable/headers/debian"
     cp "$steps/glmConfig.cmake" "$portable/headers/glm/"
     ln -s /usr/include/glm "$portable/headers/glm/include/glm"
     cp "$steps/nlohmann_jsonConfig.cmake" /usr/share/cmake/nlohmann_json/nlohmann_jsonConfigVersion.cmake \
         "$portable/headers/nlohmann_json/"
     ln -s /usr/include/nlohmann "$portable/headers/nlohmann_json/include/nlohmann"
+    cp "$steps/FastFloatConfig.cmake" /usr/lib/cmake/FastFloat/FastFloatConfigVersion.cmake "$portable/headers/fast_float/"
+    ln -s /usr/include/fast_float "$portable/headers/fast_float/include/fast_float"
     # Debian's Python keeps a part of its configuration apart.
     ln -s /usr/include/x86_64-linux-gnu "$portable/headers/debian/x86_64-linux-gnu"
 }
@@ -23,6 +26,7 @@ gather_licenses() {
     cp /usr/share/doc/libglm-dev/copyright "$portable/licenses/glm.txt"
     cp /usr/share/doc/libeigen3-dev/copyright "$portable/licenses/eigen.txt"
     cp /usr/share/doc/nlohmann-json3-dev/copyright "$portable/licenses/nlohmann_json.txt"
+    cp /usr/share/doc/libfast-float-dev/copyright "$portable/licenses/fast_float.txt"
 }
 
 # What wheels are made of; they are made again when it changes.
@@ -57,6 +61,7 @@ build_wheel() {
         CMAKE_TOOLCHAIN_FILE="$steps/portable_linux.cmake" CMAKE_PROJECT_skinglow_INCLUDE="$steps/portable_modules.cmake" \
         CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES="$portable/headers/debian" CMAKE_INTERPROCEDURAL_OPTIMIZATION=OFF \
         glm_DIR="$portable/headers/glm" nlohmann_json_DIR="$portable/headers/nlohmann_json" \
+        FastFloat_DIR="$portable/headers/fast_float" \
         embree_DIR="$portable/embree/lib/cmake/embree-$embree_version" hwy_DIR="$portable/highway/lib/cmake/hwy"; do
         settings+=("cmake.define.$setting")
     done

@@ -88,7 +88,7 @@ def test_wheel_brings_its_licenses_and_nothing_else(python: str) -> None:
         names = archive.namelist()
     assert {name.split("/")[0].split("-")[0] for name in names} == {"skinglow"}
     third_party = {Path(name).stem for name in names if re.search("/licenses/third_party/.", name)}
-    assert third_party == {"embree", "highway", "pybind11", "glm", "eigen", "nlohmann_json"}
+    assert third_party == {"embree", "highway", "pybind11", "glm", "eigen", "nlohmann_json", "fast_float"}
 
 
 def test_zips_hold_the_addon_and_no_leftovers() -> None:

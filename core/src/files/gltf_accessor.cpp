@@ -2,8 +2,6 @@
 #include <array>
 
 #include "files/gltf_document.h"
-#include "files/mesh_builder.h"
-#include "files/number_bytes.h"
 
 namespace skinglow::detail {
 namespace {
@@ -13,148 +11,131 @@ constexpr std::size_t max_zeros = 10'000'000;
 
 struct ComponentType {
     std::size_t code;
-    std::size_t size;
-    double (*load)(const char* bytes);
+    NumberType number;
     double max;  ///< what a normalized one is divided by; 0: cannot be normalized
 };
 
-constexpr std::array component_types = {
-    ComponentType{5120, 1, load_number<std::int8_t, false>, 127.0},
-    ComponentType{5121, 1, load_number<std::uint8_t, false>, 255.0},
-    ComponentType{5122, 2, load_number<std::int16_t, false>, 32767.0},
-    ComponentType{5123, 2, load_number<std::uint16_t, false>, 65535.0},
-    ComponentType{5125, 4, load_number<std::uint32_t, false>, 4294967295.0},
-    ComponentType{5126, 4, load_number<float, false>, 0.0}};
+constexpr std::array component_types = {ComponentType{5120, number_type<std::int8_t, false>, 127.0},
+                                        ComponentType{5121, number_type<std::uint8_t, false>, 255.0},
+                                        ComponentType{5122, number_type<std::int16_t, false>, 32767.0},
+                                        ComponentType{5123, number_type<std::uint16_t, false>, 65535.0},
+                                        ComponentType{5125, number_type<std::uint32_t, false>, 4294967295.0},
+                                        ComponentType{5126, number_type<float, false>, 0.0}};
+
+const ComponentType& component_type(const GltfDocument& document, const nlohmann::json& object,
+                                    const std::string& where) {
+    const std::size_t code = document.number(object, "componentType", where);
+    const auto* found = std::find_if(component_types.begin(), component_types.end(),
+                                     [&](const ComponentType& each) { return each.code == code; });
+    if (found == component_types.end())
+        document.refuse("has the unknown componentType " + std::to_string(code), where);
+    return *found;
+}
 
 std::size_t component_count(std::string_view type) {
     if (type == "SCALAR") return 1;
-    if (type == "VEC2") return 2;
     if (type == "VEC3") return 3;
-    return type == "VEC4" ? 4 : 16;  // MAT2 and MAT3 are never asked for
+    return type == "VEC4" ? 4 : 16;  // the others are never asked for
 }
 
-std::string accessor_name(std::size_t index) {
-    return "accessors[" + std::to_string(index) + "]";
+void load(const NumberType& type, const char* first, std::size_t stride, std::size_t count, double* out,
+          std::size_t out_stride) {
+    type.load_doubles(first, stride, count, out, out_stride);
 }
+
+void load(const NumberType& type, const char* first, std::size_t stride, std::size_t count,
+          std::uint32_t* out, std::size_t out_stride) {
+    type.load_indices(first, stride, count, out, out_stride);
+}
+
+void normalize(double* values, std::size_t count, double scale) {
+    if (scale == 0.0) return;
+    for (std::size_t i = 0; i < count; ++i) values[i] = std::max(values[i] * scale, -1.0);
+}
+
+void normalize(const std::uint32_t* /*values*/, std::size_t /*count*/, double /*scale*/) {}
 
 }  // namespace
 
-std::size_t GltfDocument::accessor_count(std::size_t index) const {
-    return number(entry("accessors", index), "count", accessor_name(index));
+GltfAccessor GltfDocument::accessor(std::size_t index, std::string_view type) {
+    const nlohmann::json& json = entry("accessors", index);
+    GltfAccessor accessor;
+    accessor.where = "accessors[" + std::to_string(index) + "]";
+    if (json.value("type", "") != type) refuse("is not of type " + std::string(type), accessor.where);
+    const ComponentType& kind = component_type(*this, json, accessor.where);
+    accessor.number = kind.number;
+    if (json.value("normalized", false) && kind.max > 0.0) accessor.scale = 1.0 / kind.max;
+    accessor.components = component_count(type);
+    const std::size_t size = kind.number.size * accessor.components;
+    accessor.count = number(json, "count", accessor.where);
+    if (accessor.count == 0) return accessor;
+    if (json.contains("bufferView")) {
+        const std::size_t view = number(json, "bufferView", accessor.where);
+        accessor.stride = number(entry("bufferViews", view), "byteStride", accessor.where, size);
+        if (accessor.stride < size) {
+            refuse("has elements that overlap (byteStride " + std::to_string(accessor.stride) + ")",
+                   accessor.where);
+        }
+        accessor.bytes = view_bytes(view, number(json, "byteOffset", accessor.where, 0), accessor.count,
+                                    accessor.stride, size, accessor.where);
+    } else if (accessor.count > max_zeros) {
+        refuse("has " + std::to_string(accessor.count) + " elements and no data", accessor.where);
+    }
+    const auto sparse = json.find("sparse");
+    if (sparse != json.end() && number(*sparse, "count", accessor.where) > 0) accessor.sparse = &*sparse;
+    return accessor;
+}
+
+template <class Out>
+void GltfDocument::read_numbers(const GltfAccessor& accessor, Out* values) {
+    const std::size_t components = accessor.components;
+    const std::size_t component_size = accessor.number.size;
+    const std::size_t size = components * component_size;
+    if (accessor.bytes == nullptr) {
+        std::fill_n(values, accessor.count * components, Out(0));
+    } else if (accessor.stride == size) {
+        load(accessor.number, accessor.bytes, component_size, accessor.count * components, values, 1);
+    } else {
+        for (std::size_t k = 0; k < components; ++k) {
+            load(accessor.number, accessor.bytes + k * component_size, accessor.stride, accessor.count,
+                 values + k, components);
+        }
+    }
+    if (accessor.sparse != nullptr) {
+        const std::size_t changed = number(*accessor.sparse, "count", accessor.where);
+        const auto sparse_bytes = [&](const nlohmann::json& part, std::size_t part_size) {
+            return view_bytes(number(part, "bufferView", accessor.where),
+                              number(part, "byteOffset", accessor.where, 0), changed, part_size, part_size,
+                              accessor.where);
+        };
+        const nlohmann::json& indices = accessor.sparse->at("indices");
+        const NumberType index = component_type(*this, indices, accessor.where).number;
+        const char* index_bytes = sparse_bytes(indices, index.size);
+        const char* value_bytes = sparse_bytes(accessor.sparse->at("values"), size);
+        for (std::size_t i = 0; i < changed; ++i) {
+            std::uint32_t target = no_index;
+            index.load_indices(index_bytes + i * index.size, index.size, 1, &target, 1);
+            if (target >= accessor.count) refuse("has a sparse index beyond its end", accessor.where);
+            load(accessor.number, value_bytes + i * size, component_size, components,
+                 values + target * components, 1);
+        }
+    }
+    normalize(values, accessor.count * components, accessor.scale);
+}
+
+void GltfDocument::read(const GltfAccessor& accessor, double* values) {
+    read_numbers(accessor, values);
+}
+
+void GltfDocument::read(const GltfAccessor& accessor, std::uint32_t* values) {
+    read_numbers(accessor, values);
 }
 
 std::vector<double> GltfDocument::read_accessor(std::size_t index, std::string_view type) {
-    const std::string where = accessor_name(index);
-    const nlohmann::json& accessor = entry("accessors", index);
-    if (accessor.value("type", "") != type) refuse("is not of type " + std::string(type), where);
-    const auto component = [&](const nlohmann::json& object) {
-        const std::size_t code = number(object, "componentType", where);
-        const auto* found = std::find_if(component_types.begin(), component_types.end(),
-                                         [&](const ComponentType& each) { return each.code == code; });
-        if (found == component_types.end())
-            refuse("has the unknown componentType " + std::to_string(code), where);
-        return *found;
-    };
-    const ComponentType kind = component(accessor);
-    const std::size_t components = component_count(type);
-    const std::size_t size = kind.size * components;
-    const std::size_t count = number(accessor, "count", where);
-    if (count == 0) return {};
-    const double scale = accessor.value("normalized", false) && kind.max > 0.0 ? 1.0 / kind.max : 0.0;
-    const auto load = [&](const char* bytes) {
-        const double value = kind.load(bytes);
-        return scale > 0.0 ? std::max(value * scale, -1.0) : value;
-    };
-    std::vector<double> values;
-    if (accessor.contains("bufferView")) {
-        const std::size_t view = number(accessor, "bufferView", where);
-        const std::size_t stride = number(entry("bufferViews", view), "byteStride", where, size);
-        if (stride < size)
-            refuse("has elements that overlap (byteStride " + std::to_string(stride) + ")", where);
-        const char* bytes =
-            view_bytes(view, number(accessor, "byteOffset", where, 0), count, stride, size, where);
-        values.resize(count * components);
-        for (std::size_t i = 0; i < count; ++i) {
-            for (std::size_t k = 0; k < components; ++k) {
-                values[i * components + k] = load(bytes + i * stride + k * kind.size);
-            }
-        }
-    } else {
-        if (count > max_zeros) refuse("has " + std::to_string(count) + " elements and no data", where);
-        values.resize(count * components);
-    }
-    const auto sparse = accessor.find("sparse");
-    if (sparse == accessor.end()) return values;
-    const std::size_t changed = number(*sparse, "count", where);
-    if (changed == 0) return values;
-    const nlohmann::json& indices = sparse->at("indices");
-    const ComponentType index_kind = component(indices);
-    const char* index_bytes =
-        view_bytes(number(indices, "bufferView", where), number(indices, "byteOffset", where, 0), changed,
-                   index_kind.size, index_kind.size, where);
-    const nlohmann::json& new_values = sparse->at("values");
-    const char* value_bytes =
-        view_bytes(number(new_values, "bufferView", where), number(new_values, "byteOffset", where, 0),
-                   changed, size, size, where);
-    for (std::size_t i = 0; i < changed; ++i) {
-        const double target = index_kind.load(index_bytes + i * index_kind.size);
-        if (!(target >= 0.0 && target < static_cast<double>(count)))
-            refuse("has a sparse index beyond its end", where);
-        for (std::size_t k = 0; k < components; ++k) {
-            values[static_cast<std::size_t>(target) * components + k] =
-                load(value_bytes + i * size + k * kind.size);
-        }
-    }
+    const GltfAccessor found = accessor(index, type);
+    std::vector<double> values(found.count * found.components);
+    read(found, values.data());
     return values;
-}
-
-bool decode_base64(std::string_view text, std::string& bytes) {
-    while (text.ends_with('=')) text.remove_suffix(1);
-    bytes.clear();
-    bytes.reserve(text.size() / 4 * 3 + 3);
-    std::uint32_t bits = 0;
-    int held = 0;
-    for (const char letter : text) {
-        std::uint32_t digit = 0;
-        if (letter >= 'A' && letter <= 'Z') {
-            digit = static_cast<std::uint32_t>(letter - 'A');
-        } else if (letter >= 'a' && letter <= 'z') {
-            digit = static_cast<std::uint32_t>(letter - 'a') + 26;
-        } else if (letter >= '0' && letter <= '9') {
-            digit = static_cast<std::uint32_t>(letter - '0') + 52;
-        } else if (letter == '+' || letter == '-') {
-            digit = 62;
-        } else if (letter == '/' || letter == '_') {
-            digit = 63;
-        } else {
-            return false;
-        }
-        bits = (bits << 6U | digit) & 0xFFFFFFU;
-        held += 6;
-        if (held >= 8) {
-            held -= 8;
-            bytes += static_cast<char>(bits >> static_cast<unsigned>(held) & 0xFFU);
-        }
-    }
-    return true;
-}
-
-bool decode_percent(std::string_view text, std::string& bytes) {
-    bytes.clear();
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] != '%') {
-            bytes += text[i];
-            continue;
-        }
-        constexpr std::string_view digits = "0123456789abcdef";
-        if (i + 2 >= text.size()) return false;
-        const std::size_t high = digits.find(static_cast<char>(text[i + 1] | 0x20));
-        const std::size_t low = digits.find(static_cast<char>(text[i + 2] | 0x20));
-        if (high == std::string_view::npos || low == std::string_view::npos) return false;
-        bytes += static_cast<char>(high * 16 + low);
-        i += 2;
-    }
-    return true;
 }
 
 }  // namespace skinglow::detail

@@ -4,8 +4,8 @@
 #include <array>
 #include <system_error>
 
+#include "files/gltf_uri.h"
 #include "files/mesh_builder.h"
-#include "files/number_bytes.h"
 
 namespace skinglow::detail {
 namespace {
@@ -15,7 +15,7 @@ constexpr std::uint32_t json_chunk = 0x4E4F534A;
 constexpr std::uint32_t binary_chunk = 0x004E4942;
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
-    return static_cast<std::uint32_t>(load_number<std::uint32_t, false>(bytes.data() + at));
+    return raw_number<std::uint32_t, false>(bytes.data() + at);
 }
 
 }  // namespace
@@ -32,8 +32,15 @@ bool is_readable_extension(std::string_view name) {
 }
 
 GltfDocument::GltfDocument(const std::filesystem::path& path) : path_(path) {
-    std::string content = read_whole_file(path, max_mesh_bytes);
-    read_container(content);
+    content_ = read_whole_file(path, max_mesh_bytes);
+    std::string_view text = read_container();
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    try {
+        json_ = nlohmann::json::parse(text);
+    } catch (const nlohmann::json::exception& error) {
+        refuse(std::string("is not glTF (") + error.what() + ")", "JSON");
+    }
+    if (!json_.is_object()) refuse("is not glTF", "JSON");
     check_version();
     check_extensions();
 }
@@ -42,37 +49,29 @@ void GltfDocument::refuse(const std::string& what, const std::string& where) con
     refuse_file(path_, what, damaged_mesh_remedy, where);
 }
 
-/// Takes the content apart, or as a whole where it is text.
-void GltfDocument::read_container(std::string& content) {
-    std::string_view text = content;
-    if (content.size() >= 12 && word_at(content, 0) == glb_magic) {
-        if (word_at(content, 4) != 2) {
-            refuse_file(path_, "is of glTF version " + std::to_string(word_at(content, 4)),
-                        "export it as glTF 2.0");
-        }
-        const std::size_t length = word_at(content, 8);
-        if (length > content.size()) refuse("ends too early", "header");
-        text = {};
-        for (std::size_t at = 12; at + 8 <= length;) {
-            const std::size_t size = word_at(content, at);
-            const std::uint32_t kind = word_at(content, at + 4);
-            at += 8;
-            if (size > length - at) refuse("ends too early", "chunk");
-            if (kind == json_chunk && text.empty()) text = std::string_view(content).substr(at, size);
-            if (kind == binary_chunk && !has_binary_) {
-                binary_ = content.substr(at, size);
-                has_binary_ = true;
-            }
-            at += size;
-        }
+std::string_view GltfDocument::read_container() {
+    const std::string_view content = content_;
+    if (content.size() < 12 || word_at(content, 0) != glb_magic) return content;
+    if (word_at(content, 4) != 2) {
+        refuse_file(path_, "is of glTF version " + std::to_string(word_at(content, 4)),
+                    "export it as glTF 2.0");
     }
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    try {
-        json_ = nlohmann::json::parse(text);
-    } catch (const nlohmann::json::exception& error) {
-        refuse(std::string("is not glTF (") + error.what() + ")", "JSON");
+    const std::size_t length = word_at(content, 8);
+    if (length > content.size()) refuse("ends too early", "header");
+    std::string_view text;
+    for (std::size_t at = 12; at + 8 <= length;) {
+        const std::size_t size = word_at(content, at);
+        const std::uint32_t kind = word_at(content, at + 4);
+        at += 8;
+        if (size > length - at) refuse("ends too early", "chunk");
+        if (kind == json_chunk && text.empty()) text = content.substr(at, size);
+        if (kind == binary_chunk && !has_binary_) {
+            binary_ = content.substr(at, size);
+            has_binary_ = true;
+        }
+        at += size;
     }
-    if (!json_.is_object()) refuse("is not glTF", "JSON");
+    return text;
 }
 
 void GltfDocument::check_version() const {
@@ -122,7 +121,7 @@ const char* GltfDocument::view_bytes(std::size_t view, std::size_t offset, std::
                                      std::size_t stride, std::size_t size, const std::string& where) {
     const nlohmann::json& entry = this->entry("bufferViews", view);
     const std::string view_name = "bufferViews[" + std::to_string(view) + "]";
-    const std::string& bytes = buffer(number(entry, "buffer", view_name));
+    const std::string_view bytes = buffer(number(entry, "buffer", view_name));
     const std::size_t begin = number(entry, "byteOffset", view_name, 0);
     const std::size_t length = number(entry, "byteLength", view_name);
     if (begin > bytes.size() || length > bytes.size() - begin) refuse("runs beyond its buffer", view_name);
@@ -132,7 +131,7 @@ const char* GltfDocument::view_bytes(std::size_t view, std::size_t offset, std::
     return bytes.data() + begin + offset;
 }
 
-const std::string& GltfDocument::buffer(std::size_t index) {
+std::string_view GltfDocument::buffer(std::size_t index) {
     const nlohmann::json& entry = this->entry("buffers", index);
     const std::string where = "buffers[" + std::to_string(index) + "]";
     const std::size_t length = number(entry, "byteLength", where);
@@ -143,7 +142,7 @@ const std::string& GltfDocument::buffer(std::size_t index) {
                     "export it without compression", where);
     }
     if (!is_own && !buffers_.contains(index)) buffers_[index] = read_uri(uri->get<std::string>(), where);
-    const std::string& bytes = is_own ? binary_ : buffers_.at(index);
+    const std::string_view bytes = is_own ? binary_ : std::string_view(buffers_.at(index));
     if (length > bytes.size()) refuse("has fewer bytes than it says", where);
     return bytes;
 }

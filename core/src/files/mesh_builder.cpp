@@ -2,93 +2,137 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <utility>
 
 #include "files/polygon_cut.h"
 #include "geometry/weld.h"
+#include "numerics/huge_pages.h"
 
 namespace skinglow::detail {
 
-void MeshBuilder::add_vertex(const glm::dvec3& position) {
-    const std::size_t index = vertices_.size();
-    if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z)) {
-        refuse_file(path_, "has a position that is not finite", damaged_mesh_remedy,
-                    "vertex " + std::to_string(index));
-    }
-    if (index >= std::numeric_limits<std::uint32_t>::max()) {
-        refuse_file(path_, "has more vertices than 32 bits can count", "reduce the mesh");
-    }
-    vertices_.push_back(position);
+std::span<glm::dvec3> MeshBuilder::add_vertices(std::size_t count) {
+    const std::size_t first = vertices_.size();
+    reserve_huge(vertices_, first + count);
+    vertices_.resize(first + count);
+    return std::span(vertices_).subspan(first);
+}
+
+std::span<glm::uvec3> MeshBuilder::add_triangles(std::size_t count) {
+    const std::size_t first = triangles_.size();
+    reserve_huge(triangles_, first + count);
+    triangles_.resize(first + count);
+    return std::span(triangles_).subspan(first);
 }
 
 void MeshBuilder::add_face(std::span<const std::uint32_t> corners) {
-    for (const std::uint32_t corner : corners) {
-        if (corner < max_corner_) continue;
-        max_corner_ = corner;
-        face_of_max_ = faces_;
-    }
-    ++faces_;
     if (corners.size() == 3) {
         triangles_.emplace_back(corners[0], corners[1], corners[2]);
         return;
     }
     corners_.insert(corners_.end(), corners.begin(), corners.end());
-    polygon_ends_.push_back(corners_.size());
+    polygons_.push_back({corners_.size(), triangles_.size()});
 }
 
 void MeshBuilder::reserve(std::size_t vertices, std::size_t triangles) {
-    vertices_.reserve(vertices);
-    triangles_.reserve(triangles);
+    reserve_huge(vertices_, vertices);
+    reserve_huge(triangles_, triangles);
 }
 
 TriangleMesh MeshBuilder::take() {
-    if (faces_ == 0) refuse_file(path_, "has no triangles", "give a mesh with faces");
-    check_corners();
+    if (triangles_.empty() && polygons_.empty()) {
+        refuse_file(path_, "has no triangles", "give a mesh with faces");
+    }
+    check_positions();
+    const std::vector<std::uint8_t> used = used_vertices();
     cut_polygons();
-    drop_unused();
-    const Weld welded = weld<glm::dvec3>(vertices_);
-    for (glm::uvec3& t : triangles_) t = {welded.index[t.x], welded.index[t.y], welded.index[t.z]};
-    for (std::size_t i = 0; i < welded.first.size(); ++i) vertices_[i] = vertices_[welded.first[i]];
-    vertices_.resize(welded.first.size());
+    drop_unused(used);
+    join_equal();
     return {std::move(vertices_), std::move(triangles_)};
 }
 
-void MeshBuilder::check_corners() const {
-    if (max_corner_ < vertices_.size()) return;
-    refuse_file(path_, "has a face with vertex " + std::to_string(max_corner_) + ", which does not exist",
-                damaged_mesh_remedy, "face " + std::to_string(face_of_max_));
+void MeshBuilder::check_positions() const {
+    if (vertices_.size() >= std::numeric_limits<std::uint32_t>::max()) {
+        refuse_file(path_, "has more vertices than 32 bits can count", "reduce the mesh");
+    }
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+        const glm::dvec3& position = vertices_[i];
+        if (std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z)) continue;
+        refuse_file(path_, "has a position that is not finite", damaged_mesh_remedy,
+                    "vertex " + std::to_string(i));
+    }
+}
+
+std::vector<std::uint8_t> MeshBuilder::used_vertices() const {
+    std::vector<std::uint8_t> used(vertices_.size(), 0);
+    // Triangles and polygons are kept apart; a message counts faces in the file's order.
+    std::size_t polygons_before = 0;
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t corner = triangles_[i][k];
+            if (corner < used.size()) {
+                used[corner] = 1;
+                continue;
+            }
+            while (polygons_before < polygons_.size() && polygons_[polygons_before].triangles_before <= i)
+                ++polygons_before;
+            refuse_corner(corner, i + polygons_before);
+        }
+    }
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < polygons_.size(); ++i) {
+        for (; begin < polygons_[i].end; ++begin) {
+            if (corners_[begin] >= used.size())
+                refuse_corner(corners_[begin], i + polygons_[i].triangles_before);
+            used[corners_[begin]] = 1;
+        }
+    }
+    return used;
+}
+
+void MeshBuilder::refuse_corner(std::uint32_t corner, std::size_t face) const {
+    refuse_file(path_, "has a face with vertex " + std::to_string(corner) + ", which does not exist",
+                damaged_mesh_remedy, "face " + std::to_string(face));
 }
 
 void MeshBuilder::cut_polygons() {
     PolygonCutter cutter;
     std::size_t begin = 0;
-    for (const std::size_t end : polygon_ends_) {
-        const auto corners = std::span(corners_).subspan(begin, end - begin);
+    for (const Polygon& polygon : polygons_) {
+        const auto corners = std::span(corners_).subspan(begin, polygon.end - begin);
         if (!cutter.cut(corners, vertices_, triangles_)) {
             refuse_file(
                 path_,
                 "has a polygon of " + std::to_string(corners.size()) + " corners that is too intricate",
                 "cut it into triangles before you export it");
         }
-        begin = end;
+        begin = polygon.end;
     }
     corners_ = {};
-    polygon_ends_ = {};
+    polygons_ = {};
 }
 
-void MeshBuilder::drop_unused() {
-    std::vector<std::uint32_t> new_index(vertices_.size(), 0);
-    for (const glm::uvec3& t : triangles_) new_index[t.x] = new_index[t.y] = new_index[t.z] = 1;
-    std::uint32_t used = 0;
-    for (std::size_t i = 0; i < vertices_.size(); ++i) {
-        if (new_index[i] == 0) continue;
-        new_index[i] = used;
-        vertices_[used++] = vertices_[i];
+void MeshBuilder::drop_unused(const std::vector<std::uint8_t>& used) {
+    if (std::accumulate(used.begin(), used.end(), std::size_t{0}) == used.size()) return;
+    std::vector<std::uint32_t> new_index(used.size(), 0);
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        if (used[i] == 0) continue;
+        new_index[i] = count;
+        vertices_[count++] = vertices_[i];
     }
-    if (used == vertices_.size()) return;
-    vertices_.resize(used);
+    vertices_.resize(count);
     for (glm::uvec3& t : triangles_) t = {new_index[t.x], new_index[t.y], new_index[t.z]};
+}
+
+void MeshBuilder::join_equal() {
+    const std::vector<Repeated> repeated = repeated_entries<glm::dvec3>(vertices_);
+    if (repeated.empty()) return;
+    const Weld welded = keep_once(vertices_.size(), repeated);
+    for (glm::uvec3& t : triangles_) t = {welded.index[t.x], welded.index[t.y], welded.index[t.z]};
+    for (std::size_t i = 0; i < welded.first.size(); ++i) vertices_[i] = vertices_[welded.first[i]];
+    vertices_.resize(welded.first.size());
 }
 
 void refuse_group(const std::filesystem::path& path, const std::string& group,

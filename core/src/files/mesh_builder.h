@@ -25,36 +25,47 @@ class MeshBuilder {
     explicit MeshBuilder(const std::filesystem::path& path) : path_(path) {}
 
     std::size_t vertex_count() const { return vertices_.size(); }
-    /// @throws FileError where the position is not finite or there are too many
-    void add_vertex(const glm::dvec3& position);
+    std::size_t triangle_count() const { return triangles_.size(); }
+    void add_vertex(const glm::dvec3& position) { vertices_.push_back(position); }
+    /// Many vertices at once, to be filled in before anything else is added.
+    std::span<glm::dvec3> add_vertices(std::size_t count);
     /// @param corners  indices of vertices, which may be added later; at least 3
     void add_face(std::span<const std::uint32_t> corners);
+    /// Many triangles at once, to be filled in before anything else is added.
+    std::span<glm::uvec3> add_triangles(std::size_t count);
     void reserve(std::size_t vertices, std::size_t triangles);
 
     /// The finished mesh: polygons cut into triangles, positions that occur twice joined, vertices of no face
-    /// left out. @throws FileError where there is no face or one has a vertex that does not exist
+    /// left out. @throws FileError where there is no face, one has a vertex that does not exist, or a
+    /// position is not finite
     TriangleMesh take();
 
   private:
-    void check_corners() const;
+    struct Polygon {
+        std::size_t end;               ///< of its corners, in `corners_`
+        std::size_t triangles_before;  ///< how many triangles the file has before it
+    };
+
+    void check_positions() const;
+    /// For each vertex 1 if a face uses it.
+    std::vector<std::uint8_t> used_vertices() const;
+    [[noreturn]] void refuse_corner(std::uint32_t corner, std::size_t face) const;
     void cut_polygons();
-    void drop_unused();
+    void drop_unused(const std::vector<std::uint8_t>& used);
+    void join_equal();
 
     const std::filesystem::path& path_;
     std::vector<glm::dvec3> vertices_;
     std::vector<glm::uvec3> triangles_;
-    std::vector<std::uint32_t> corners_;     ///< of all polygons with more than three
-    std::vector<std::size_t> polygon_ends_;  ///< of each of these, in `corners_`
-    std::size_t faces_ = 0;
-    std::uint32_t max_corner_ = 0;  ///< the highest index of all faces
-    std::size_t face_of_max_ = 0;
+    std::vector<std::uint32_t> corners_;  ///< of all polygons with more than three
+    std::vector<Polygon> polygons_;
 };
 
 /// @throws FileError: the file has no such group; it has `names`
 [[noreturn]] void refuse_group(const std::filesystem::path& path, const std::string& group,
                                const std::vector<std::string>& names);
 
-/// The readers, by format. `file` has its path and group; they fill in the rest.
+/// The readers, by format.
 MeshFile read_ply(const std::filesystem::path& path);
 MeshFile read_stl(const std::filesystem::path& path);
 MeshFile read_obj(const std::filesystem::path& path, const std::string& group);

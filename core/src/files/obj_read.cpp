@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "files/mesh_builder.h"
+#include "rig_files/parse_number.h"
 
 namespace skinglow::detail {
 namespace {
@@ -93,12 +94,13 @@ class ObjReader {
     void read_vertex(std::string_view line) {
         glm::dvec3 position;
         for (int i = 0; i < 3; ++i) {
-            std::string_view word = take_word(line);
-            if (word.starts_with('+')) word.remove_prefix(1);
-            const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), position[i]);
-            if (error != std::errc() || end != word.data() + word.size()) {
-                refuse("has a vertex whose coordinate \"" + std::string(word) + "\" is no number");
+            const std::string_view word = take_word(line);
+            const auto number = parse_number(word);
+            if (!number) {
+                refuse("has a vertex whose coordinate \"" + std::string(word.substr(0, 40)) +
+                       "\" is no number or not finite");
             }
+            position[i] = *number;
         }
         builder_.add_vertex(position);
     }

@@ -5,23 +5,28 @@
 #include <charconv>
 
 #include "files/mesh_builder.h"
-#include "files/number_bytes.h"
 
 namespace skinglow::detail {
 namespace {
 
+struct NamedType {
+    std::string_view name;
+    NumberType little_endian;
+    NumberType big_endian;
+};
+
 template <class Number>
-constexpr PlyType type_of(std::string_view name) {
-    return {name, sizeof(Number), load_number<Number, false>, load_number<Number, true>};
+constexpr NamedType named(std::string_view name) {
+    return {name, number_type<Number, false>, number_type<Number, true>};
 }
 
 constexpr std::array types = {
-    type_of<std::int8_t>("char"),     type_of<std::int8_t>("int8"),     type_of<std::uint8_t>("uchar"),
-    type_of<std::uint8_t>("uint8"),   type_of<std::int16_t>("short"),   type_of<std::int16_t>("int16"),
-    type_of<std::uint16_t>("ushort"), type_of<std::uint16_t>("uint16"), type_of<std::int32_t>("int"),
-    type_of<std::int32_t>("int32"),   type_of<std::uint32_t>("uint"),   type_of<std::uint32_t>("uint32"),
-    type_of<float>("float"),          type_of<float>("float32"),        type_of<double>("double"),
-    type_of<double>("float64")};
+    named<std::int8_t>("char"),     named<std::int8_t>("int8"),     named<std::uint8_t>("uchar"),
+    named<std::uint8_t>("uint8"),   named<std::int16_t>("short"),   named<std::int16_t>("int16"),
+    named<std::uint16_t>("ushort"), named<std::uint16_t>("uint16"), named<std::int32_t>("int"),
+    named<std::int32_t>("int32"),   named<std::uint32_t>("uint"),   named<std::uint32_t>("uint32"),
+    named<float>("float"),          named<float>("float32"),        named<double>("double"),
+    named<double>("float64")};
 
 class HeaderReader {
   public:
@@ -38,6 +43,8 @@ class HeaderReader {
             if (word == "format") {
                 read_format();
                 has_format = true;
+            } else if (!has_format && (word == "element" || word == "property")) {
+                refuse_file(path_, "names no format first", damaged_mesh_remedy, "header");
             } else if (word == "element") {
                 read_element();
             } else if (word == "property") {
@@ -84,25 +91,20 @@ class HeaderReader {
         return word;
     }
 
-    PlyType take_type() {
+    NumberType take_type() {
         const std::string_view name = take_word();
-        const auto* found =
-            std::find_if(types.begin(), types.end(), [&](const PlyType& type) { return type.name == name; });
+        const auto* found = std::find_if(types.begin(), types.end(),
+                                         [&](const NamedType& type) { return type.name == name; });
         if (found == types.end()) refuse("has the unknown type \"" + std::string(name) + "\"");
-        return *found;
+        return is_big_endian_ ? found->big_endian : found->little_endian;
     }
 
     void read_format() {
         const std::string_view name = take_word();
-        if (name == "ascii") {
-            header_.coding = PlyCoding::text;
-        } else if (name == "binary_little_endian") {
-            header_.coding = PlyCoding::little_endian;
-        } else if (name == "binary_big_endian") {
-            header_.coding = PlyCoding::big_endian;
-        } else {
+        header_.is_binary = name != "ascii";
+        is_big_endian_ = name == "binary_big_endian";
+        if (header_.is_binary && !is_big_endian_ && name != "binary_little_endian")
             refuse("has the unknown format \"" + std::string(name) + "\"");
-        }
     }
 
     void read_element() {
@@ -119,16 +121,16 @@ class HeaderReader {
         if (header_.elements.empty()) refuse("has a property of no element");
         PlyElement& element = header_.elements.back();
         const std::string_view before = line_;
-        std::optional<PlyType> count_type;
+        std::optional<NumberType> count_type;
         if (take_word() == "list") {
             count_type = take_type();
-            element.has_list = true;
+            ++element.lists;
         } else {
             line_ = before;
         }
-        const PlyType type = take_type();
+        const NumberType type = take_type();
+        element.properties.push_back({std::string(take_word()), type, count_type, element.size});
         if (!count_type) element.size += type.size;
-        element.properties.push_back({std::string(take_word()), type, count_type});
     }
 
     const std::filesystem::path& path_;
@@ -136,6 +138,7 @@ class HeaderReader {
     std::string_view rest_;
     std::string_view line_;
     char line_end_ = '\n';
+    bool is_big_endian_ = false;
     std::size_t line_number_ = 0;
     PlyHeader header_;
 };

@@ -1,45 +1,37 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "files/number_bytes.h"
 #include "numerics/detail.h"
 
 namespace skinglow::detail {
 
-enum class PlyCoding { text, little_endian, big_endian };
-
-struct PlyType {
-    std::string_view name;
-    std::size_t size;                          ///< bytes
-    double (*load_little)(const char* bytes);  ///< the number from its bytes, lowest first
-    double (*load_big)(const char* bytes);     ///< highest first
-};
-
 struct PlyProperty {
     std::string name;
-    PlyType type;
-    std::optional<PlyType> count_type;  ///< of a list
+    NumberType type;                       ///< in the file's byte order
+    std::optional<NumberType> count_type;  ///< of a list
+    std::size_t offset = 0;  ///< bytes from the element's begin on, as if lists before it were empty
 };
 
 struct PlyElement {
     std::string name;
     std::size_t count = 0;
     std::vector<PlyProperty> properties;
-    bool has_list = false;
-    std::size_t size = 0;  ///< bytes of one in a binary file, without its lists
+    std::size_t lists = 0;  ///< how many of its properties are lists
+    std::size_t size = 0;   ///< bytes of one in a binary file, without its lists
 
     /// Place of the property in `properties`. None where there is no such scalar.
     std::optional<std::size_t> scalar(std::string_view property) const;
 };
 
 struct PlyHeader {
-    PlyCoding coding = PlyCoding::text;
+    bool is_binary = false;
     std::vector<PlyElement> elements;
     std::size_t size = 0;  ///< bytes up to the first element
 };

@@ -1,17 +1,19 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "files/mesh_builder.h"
 #include "files/ply_header.h"
+#include "rig_files/parse_number.h"
 
 namespace skinglow::detail {
 namespace {
 
-constexpr double strip_end = -1.0;  // a triangle strip begins anew after it
+constexpr std::size_t block = 4096;  // rows at once, few enough to stay in the cache
+constexpr double strip_end = -1.0;   // a triangle strip begins anew after it
 
 class PlyReader {
   public:
@@ -24,7 +26,7 @@ class PlyReader {
         for (const PlyElement& element : header_.elements) {
             element_ = &element;
             begin(element);
-            for (index_ = 0; index_ < element.count; ++index_) read_entry(element);
+            read_entries(element);
         }
     }
     TriangleMesh take() { return builder_.take(); }
@@ -59,6 +61,71 @@ class PlyReader {
         if (kind_ == Kind::faces) builder_.reserve(0, std::min(element.count, rest_.size() / 4));
     }
 
+    /// Rows of a known size many at once, others one by one.
+    void read_entries(const PlyElement& element) {
+        const PlyProperty* list = list_of_rows(element);
+        for (index_ = 0; index_ < element.count;) {
+            const std::size_t rows = !header_.is_binary   ? 0
+                                     : element.lists == 0 ? read_rows(element)
+                                     : list != nullptr    ? read_triangles(element, *list)
+                                                          : 0;
+            if (rows == 0) read_entry(element);
+            index_ += std::max<std::size_t>(rows, 1);
+        }
+    }
+
+    bool are_corners(const PlyProperty& property) const {
+        return (kind_ == Kind::faces || kind_ == Kind::strips) && property.count_type &&
+               (property.name == "vertex_indices" || property.name == "vertex_index");
+    }
+
+    /// The corners of faces that have no other list.
+    const PlyProperty* list_of_rows(const PlyElement& element) const {
+        if (kind_ != Kind::faces || element.lists != 1) return nullptr;
+        const auto found = std::find_if(element.properties.begin(), element.properties.end(),
+                                        [&](const PlyProperty& each) { return are_corners(each); });
+        return found == element.properties.end() ? nullptr : &*found;
+    }
+
+    /// Some rows of an element without lists; none at the end of the file.
+    std::size_t read_rows(const PlyElement& element) {
+        const std::size_t rows = std::min({block, element.count - index_, rest_.size() / element.size});
+        if (kind_ == Kind::vertices && rows > 0) {
+            const std::span<glm::dvec3> vertices = builder_.add_vertices(rows);
+            for (int axis = 0; axis < 3; ++axis) {
+                const PlyProperty& property =
+                    element.properties[coordinates_[static_cast<std::size_t>(axis)]];
+                property.type.load_doubles(rest_.data() + property.offset, element.size, rows,
+                                           &vertices[0][axis], 3);
+            }
+        }
+        rest_.remove_prefix(rows * element.size);
+        return rows;
+    }
+
+    /// The next rows that are triangles; none where the next one is not.
+    std::size_t read_triangles(const PlyElement& element, const PlyProperty& list) {
+        const std::size_t count_size = list.count_type->size;
+        const std::size_t row = element.size + count_size + 3 * list.type.size;
+        const std::size_t most = std::min({block, element.count - index_, rest_.size() / row});
+        const char* counts = rest_.data() + list.offset;
+        std::size_t rows = 0;
+        if (count_size == 1) {
+            while (rows < most && counts[rows * row] == 3) ++rows;
+        } else {
+            while (rows < most && list.count_type->load(counts + rows * row) == 3.0) ++rows;
+        }
+        if (rows == 0) return 0;
+        const std::span<glm::uvec3> triangles = builder_.add_triangles(rows);
+        for (int corner = 0; corner < 3; ++corner) {
+            const std::size_t offset =
+                list.offset + count_size + static_cast<std::size_t>(corner) * list.type.size;
+            list.type.load_indices(rest_.data() + offset, row, rows, &triangles[0][corner], 3);
+        }
+        rest_.remove_prefix(rows * row);
+        return rows;
+    }
+
     void read_entry(const PlyElement& element) {
         values_.resize(element.properties.size());
         for (std::size_t i = 0; i < element.properties.size(); ++i) {
@@ -66,7 +133,7 @@ class PlyReader {
             if (property.count_type) {
                 read_list(property);
             } else {
-                values_[i] = take_number(property.type);
+                values_[i] = take_value(property.type);
             }
         }
         if (kind_ == Kind::vertices) {
@@ -76,14 +143,13 @@ class PlyReader {
     }
 
     void read_list(const PlyProperty& property) {
-        const double count = take_number(*property.count_type);
+        const double count = take_value(*property.count_type);
         if (!(count >= 0.0)) refuse("has a list of no length");
-        const bool wanted = (kind_ == Kind::faces || kind_ == Kind::strips) &&
-                            (property.name == "vertex_indices" || property.name == "vertex_index");
+        const bool wanted = are_corners(property);
         corners_.clear();
         const auto entries = static_cast<std::uint64_t>(std::min(count, 1e15));  // any file ends before
         for (std::uint64_t i = 0; i < entries; ++i) {
-            const double value = take_number(property.type);
+            const double value = take_value(property.type);
             if (!wanted) continue;
             if (kind_ == Kind::strips && value == strip_end) {
                 add_strip();
@@ -109,27 +175,23 @@ class PlyReader {
         corners_.clear();
     }
 
-    double take_number(const PlyType& type) {
-        if (header_.coding == PlyCoding::text) return take_text_number();
+    double take_value(const NumberType& type) {
+        if (!header_.is_binary) return take_text_number();
         if (rest_.size() < type.size) refuse("ends too early");
         const char* bytes = rest_.data();
         rest_.remove_prefix(type.size);
-        return header_.coding == PlyCoding::little_endian ? type.load_little(bytes) : type.load_big(bytes);
+        return type.load(bytes);
     }
 
     double take_text_number() {
         constexpr std::string_view blanks = " \t\r\n\v\f";
         rest_.remove_prefix(std::min(rest_.find_first_not_of(blanks), rest_.size()));
-        if (rest_.starts_with('+')) rest_.remove_prefix(1);
-        double number = 0.0;
-        const char* const last = rest_.data() + rest_.size();
-        const auto [end, error] = std::from_chars(rest_.data(), last, number);
         if (rest_.empty()) refuse("ends too early");
-        if (error != std::errc() || (end != last && blanks.find(*end) == std::string_view::npos)) {
-            refuse("has a value that is no number");
+        const auto number = take_number(rest_);
+        if (!number || (!rest_.empty() && blanks.find(rest_.front()) == std::string_view::npos)) {
+            refuse("has a value that is no number or not finite");
         }
-        rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
-        return number;
+        return *number;
     }
 
     const std::filesystem::path& path_;

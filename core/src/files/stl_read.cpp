@@ -1,7 +1,6 @@
 #include <array>
-#include <bit>
 #include <cstdint>
-#include <cstring>
+#include <span>
 #include <string_view>
 
 #include "files/mesh_builder.h"
@@ -14,27 +13,21 @@ namespace {
 constexpr std::size_t header_bytes = 84;    // a text of 80 and the number of triangles
 constexpr std::size_t triangle_bytes = 50;  // normal, three corners, 16 bits of anything
 
-void add_triangle(MeshBuilder& builder, const std::array<glm::dvec3, 3>& corners) {
-    const auto first = static_cast<std::uint32_t>(builder.vertex_count());
-    for (const glm::dvec3& corner : corners) builder.add_vertex(corner);
-    builder.add_face(std::array{first, first + 1, first + 2});
-}
-
 void read_binary(std::string_view content, MeshBuilder& builder) {
-    for (std::size_t at = header_bytes; at < content.size(); at += triangle_bytes) {
-        std::array<glm::dvec3, 3> corners{};
-        for (std::size_t i = 0; i < 9; ++i) {
-            corners[i / 3][static_cast<int>(i % 3)] =
-                load_number<float, false>(content.data() + at + 12 + 4 * i);
-        }
-        add_triangle(builder, corners);
+    const std::size_t count = (content.size() - header_bytes) / triangle_bytes;
+    const std::span<glm::dvec3> corners = builder.add_vertices(3 * count);
+    const std::span<glm::uvec3> triangles = builder.add_triangles(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        load_numbers<float, false>(content.data() + header_bytes + i * triangle_bytes + 12, sizeof(float), 9,
+                                   &corners[3 * i].x, 1);
+        const auto first = static_cast<std::uint32_t>(3 * i);
+        triangles[i] = {first, first + 1, first + 2};
     }
 }
 
 void read_text(const std::filesystem::path& path, std::string_view content, MeshBuilder& builder) {
     WordReader words(path, content);
-    std::array<glm::dvec3, 3> corners{};
-    std::size_t count = 0;
+    std::uint32_t count = 0;
     bool ended = false;
     for (std::string_view word = words.take(); !word.empty(); word = words.take()) {
         ended = word == "endsolid";
@@ -42,11 +35,14 @@ void read_text(const std::filesystem::path& path, std::string_view content, Mesh
             words.skip_line();  // a name, of any words
         } else if (word == "vertex") {
             if (count >= 3) words.refuse("has a facet of more than three corners");
-            for (int i = 0; i < 3; ++i) corners[count][i] = words.take_number();
+            glm::dvec3 position;
+            for (int i = 0; i < 3; ++i) position[i] = words.take_number();
+            builder.add_vertex(position);
             ++count;
         } else if (word == "endloop") {
             if (count != 3) words.refuse("has a facet of fewer than three corners");
-            add_triangle(builder, corners);
+            const auto end = static_cast<std::uint32_t>(builder.vertex_count());
+            builder.add_face(std::array{end - 3, end - 2, end - 1});
             count = 0;
         }
     }

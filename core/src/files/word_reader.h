@@ -1,13 +1,13 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 #include "files/mesh_builder.h"
 #include "numerics/detail.h"
+#include "rig_files/parse_number.h"
 
 namespace skinglow::detail {
 
@@ -33,15 +33,11 @@ class WordReader {
     }
 
     double take_number() {
-        std::string_view word = take();
+        const std::string_view word = take();
         if (word.empty()) refuse("ends too early");
-        if (word.starts_with('+')) word.remove_prefix(1);
-        double number = 0.0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-        if (error != std::errc() || end != word.data() + word.size()) {
-            refuse("has \"" + std::string(word.substr(0, 40)) + "\" where a number belongs");
-        }
-        return number;
+        const auto number = parse_number(word);
+        if (!number) refuse("has \"" + std::string(word.substr(0, 40)) + "\" where a number belongs");
+        return *number;
     }
 
     void skip_line() { rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size())); }

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "numerics/huge_pages.h"
+
 namespace skinglow::detail {
 
 void refuse_file(const std::filesystem::path& path, std::string_view what, std::string_view remedy,
@@ -45,11 +47,16 @@ std::string read_whole_file(const std::filesystem::path& path, std::size_t max_b
     if (!stream)
         refuse_file(path, "cannot be read: " + system_error_text(errno),
                     "check the name and the permissions");
+    // In one piece; what is written to it meanwhile, or has no size to begin with (/proc), comes in further ones.
+    const auto size = std::filesystem::file_size(path, ignored);
     std::string text;
-    text.reserve(std::min<std::uintmax_t>(std::filesystem::file_size(path, ignored), max_bytes));
-    std::string block(std::size_t{1} << 16U, '\0');
-    while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0) {
-        text.append(block, 0, static_cast<std::size_t>(stream.gcount()));
+    for (std::size_t next = ignored ? 0 : std::min<std::uintmax_t>(size, max_bytes) + 1; stream;
+         next = 1U << 16U) {
+        const std::size_t before = text.size();
+        reserve_huge(text, before + next);
+        text.resize(before + next);
+        stream.read(text.data() + before, static_cast<std::streamsize>(next));
+        text.resize(before + static_cast<std::size_t>(stream.gcount()));
         if (text.size() > max_bytes) {
             refuse_file(path, "is longer than " + std::to_string(max_bytes) + " bytes",
                         "is it the right file? Split it if it is");

@@ -5,9 +5,14 @@
 
 #include "numerics/detail.h"
 
+/// The one place where numbers are parsed, in any locale and with every digit.
 namespace skinglow::detail {
 
-/// The finite number that the whole of `text` spells; none otherwise.
+/// The finite number that the whole of `text` spells; none otherwise. What is too small for a double is 0.
 std::optional<double> parse_number(std::string_view text);
+
+/// The finite number that `text` starts with, after a sign or none; it is taken off. None, and `text` as it
+/// was, where there is none.
+std::optional<double> take_number(std::string_view& text);
 
 }  // namespace skinglow::detail
