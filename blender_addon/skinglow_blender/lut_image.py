@@ -20,8 +20,9 @@ FIRST_ROWS = 16
 NODE_NAMES = ("LUT below", "LUT above")
 #: In a group that lights per pixel: the node of the inner group that reads a texel, and the image node in it.
 TEXEL_NODE, SURFACE_NODE = "LUT texel", "LUT"
-#: Custom property that marks our node groups.
+#: Custom property that marks our node groups, and the version of their nodes (file_upgrade.py).
 GROUP_PROPERTY = "skinglow"
+GROUP_VERSION = 2
 SLOTS = ("viewport_a", "viewport_b", "render_a", "render_b")
 
 
@@ -148,6 +149,7 @@ class Atlas:
         #: Which image of the pair is up to date, and whether a renderer may have read it since it was written.
         self.front = 1 if shown_image(group) == pair[1] else 0
         self.was_shown = True
+        self._is_compared = False
 
     def fits(self, group: bpy.types.NodeTree) -> bool:
         """Whether size and layout of the images and the file's working space are still those of this atlas."""
@@ -166,7 +168,15 @@ class Atlas:
         self.is_dirty = True
 
     def write(self, group: bpy.types.NodeTree) -> None:
-        """Writes the rows into an image that no renderer holds a copy of."""
+        """Writes the rows into an image that no renderer holds a copy of.
+
+        The first time only if it differs: a file that was opened and not changed is not to be saved again.
+        """
+        if not self._is_compared:
+            self._is_compared = True
+            if np.array_equal(_read(image_pair(group, self.mode)[self.front]), self.pixels):
+                self.is_dirty = False
+                return
         if self.was_shown and (self.mode == "RENDER" or is_rendered_in_view()):
             self.front = 1 - self.front
             self.was_shown = False
@@ -205,7 +215,12 @@ def is_rendered_in_view() -> bool:
 
 def read_row(image: bpy.types.Image, row: int) -> np.ndarray:
     """A row's texels, (width, 4) float32, unconverted."""
+    return _read(image)[row].copy()
+
+
+def _read(image: bpy.types.Image) -> np.ndarray:
+    """All texels, (height, width, 4) float32, unconverted."""
     width, height = image.size
     pixels = np.empty(width * height * 4, np.float32)
     image.pixels.foreach_get(pixels)
-    return pixels.reshape(height, width, 4)[row].copy()
+    return pixels.reshape(height, width, 4)

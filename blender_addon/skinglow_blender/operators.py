@@ -76,7 +76,7 @@ class SKINGLOW_OT_reset(_SelectedSkins, bpy.types.Operator):  # noqa: N801
 
     bl_idname = "skinglow.reset"
     bl_label = "Reset Skin Glow"
-    bl_description = "Reset all settings of the selected skins to their defaults; the measured thickness is kept"
+    bl_description = "Reset the settings of the selected skins to their defaults; the thickness and its unit are kept"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         def reset() -> str:
@@ -164,7 +164,9 @@ class SKINGLOW_OT_select_light(_SkinOperator, bpy.types.Operator):  # noqa: N801
         def select() -> str:
             objects = context.view_layer.objects
             # An instance cannot be selected: its instancer can.
-            light = objects.get(self.light) or objects.get(self.light.rpartition(" in ")[2])
+            parts = self.light.split(" in ")
+            names = [self.light, *(" in ".join(parts[i:]) for i in range(1, len(parts)))]
+            light = next((objects[name] for name in names if name in objects), None)
             if light is None:
                 raise SkinError(f"'{self.light}' is not in this view layer: enable its collection to select it")
             if light.hide_select or not light.visible_get():

@@ -20,20 +20,21 @@ FIELDS = ("name", "type", "color", "power", "position", "direction", "shape", "n
 class SceneLight(NamedTuple):
     """One light; each instance of a light is one of its own."""
 
-    name: str
+    name: str  #: for people: an instance is named after its light and its instancer
+    object_name: str  #: of the light object, also of an instance
     signature: tuple  #: everything its emission depends on (FIELDS); equal signatures emit equal light
-    receivers: frozenset[str] | None  #: names of the only objects it lights; None: all
-    excluded: frozenset[str]  #: names of objects it does not light
+    receivers: frozenset[str] | None  #: keys (Skin.key) of the only objects it lights; None: all
+    excluded: frozenset[str]  #: keys of objects it does not light
     unlit_reason: str  #: why it emits nothing, or ""
     note: str  #: what is not supported and was ignored, or ""
     casts_shadows: bool = True
     visible: Mapping[str, float] = MappingProxyType({})  #: visible fraction, 0 to 1, by Skin.key; missing: 1
 
-    def lights(self, obj_name: str) -> bool:
-        """Whether light linking lets this light illuminate that object."""
-        if obj_name in self.excluded:
+    def lights(self, skin_key: str) -> bool:
+        """Whether light linking lets this light illuminate that skin."""
+        if skin_key in self.excluded:
             return False
-        return self.receivers is None or obj_name in self.receivers
+        return self.receivers is None or skin_key in self.receivers
 
     def seen_by(self, skin_key: str) -> "SceneLight":
         """The light reduced to the fraction of it that is visible from that skin."""
@@ -69,7 +70,7 @@ def read_light(obj: bpy.types.Object, matrix: Matrix, name: str) -> SceneLight:
     receivers, excluded = _linked_objects(obj)
     unlit_reason = _unlit_reason(obj, kind, direction)
     casts_shadows = blender_version.light_casts_shadows(light)
-    return SceneLight(name, signature, receivers, excluded, unlit_reason, note or gamut_note, casts_shadows)
+    return SceneLight(name, obj.name, signature, receivers, excluded, unlit_reason, note or gamut_note, casts_shadows)
 
 
 def make_light(light: SceneLight) -> Any:  # noqa: ANN401  a skinglow.Light
@@ -132,7 +133,7 @@ def _unlit_reason(obj: bpy.types.Object, kind: str, direction: tuple[float, floa
 
 
 def _linked_objects(obj: bpy.types.Object) -> tuple[frozenset[str] | None, frozenset[str]]:
-    """Names of the objects a light is linked to (None: all) and of those excluded from it."""
+    """Keys of the objects a light is linked to (None: all) and of those excluded from it."""
     collection = blender_version.light_receivers(obj)
     if collection is None:
         return None, frozenset()
@@ -142,7 +143,7 @@ def _linked_objects(obj: bpy.types.Object) -> tuple[frozenset[str] | None, froze
         (collection.collection_children, (c.all_objects for c in collection.children)),
     ):
         for state, objects in zip(states, members, strict=True):
-            names = {o.name for o in objects}
-            (included if state.light_linking.link_state == "INCLUDE" else excluded).update(names)
+            keys = {o.original.name_full for o in objects}
+            (included if state.light_linking.link_state == "INCLUDE" else excluded).update(keys)
     # With exclusions alone the light illuminates everything else.
     return (frozenset(included - excluded) if included else None), frozenset(excluded)

@@ -72,7 +72,7 @@ def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
         if obj.type == "LIGHT":
             if is_visible(instancer or obj):
                 lights.append(read_light(obj, matrix, f"{obj.name} in {instancer.name}" if instancer else obj.name))
-        elif ROW_PROPERTY in obj and obj.type == "MESH" and obj.skinglow.enabled:
+        elif obj.type == "MESH" and obj.skinglow.enabled:
             skin = read_skin(obj, matrix)
             if skin.key not in seen:
                 seen.add(skin.key)

@@ -10,7 +10,7 @@ import numpy as np
 
 from .errors import SkinError, core
 from .scene_reading import MEASURED_CONE, MEASURED_SIZE, MEASURED_UNIT, MM_PER_METER
-from .skin_group import THICKNESS_ATTRIBUTE
+from .skin_group import KNOWN_ATTRIBUTE, MIN_KNOWN, THICKNESS_ATTRIBUTE
 from .skin_settings import as_typed
 
 #: Mesh property: digest of the measured geometry, or GIVEN for custom thicknesses.
@@ -135,6 +135,11 @@ def check_mesh(obj: bpy.types.Object) -> None:
         raise SkinError(f"'{getattr(obj, 'name', obj)}' is not a mesh: select the mesh to make glow")
     if not obj.data.polygons:
         raise SkinError(f"'{obj.name}' has no faces, so no light can pass through it")
+    if obj.data.library is not None:
+        raise SkinError(
+            f"The mesh of '{obj.name}' belongs to {obj.data.library.filepath} and cannot keep a thickness: make the "
+            "skin in that file, or make object and data local first (Object > Relations > Make Local)"
+        )
     if obj.mode == "EDIT":
         raise SkinError(f"'{obj.name}' is in Edit Mode: leave it (Tab) first")
     scales = [column.to_3d().length for column in obj.matrix_world.col[:3]]
@@ -152,13 +157,8 @@ def store(obj: bpy.types.Object, thickness_mm: Sequence[float], unit_mm: float) 
         )
     if not np.isfinite(values).all() or (values < 0.0).any():
         raise SkinError(f"'{obj.name}': a thickness is negative or not finite; allowed: 0 mm or more")
-    attribute = mesh.attributes.get(THICKNESS_ATTRIBUTE)
-    if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", "FLOAT"):
-        mesh.attributes.remove(attribute)
-        attribute = None
-    if attribute is None:
-        attribute = mesh.attributes.new(THICKNESS_ATTRIBUTE, "FLOAT", "POINT")
-    attribute.data.foreach_set("value", values)
+    _write(mesh, THICKNESS_ATTRIBUTE, values)
+    _write(mesh, KNOWN_ATTRIBUTE, np.ones_like(values))
     mesh[MEASURED_GEOMETRY] = GIVEN
     mesh.pop(NO_FAR_SIDE, None)
     mesh[MEASURED_SIZE] = abs(obj.matrix_world.to_3x3().determinant()) ** (1.0 / 3.0)
@@ -170,10 +170,38 @@ def store(obj: bpy.types.Object, thickness_mm: Sequence[float], unit_mm: float) 
     mesh.update()
 
 
-def remove(mesh: bpy.types.Mesh) -> None:
-    """Removes the attribute and the related mesh properties."""
-    attribute = mesh.attributes.get(THICKNESS_ATTRIBUTE)
-    if attribute is not None:
+def _write(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
+    attribute = mesh.attributes.get(name)
+    if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", "FLOAT"):
         mesh.attributes.remove(attribute)
+        attribute = None
+    if attribute is None:
+        attribute = mesh.attributes.new(name, "FLOAT", "POINT")
+    attribute.data.foreach_set("value", values)
+
+
+def read(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Thickness at each vertex, (n,) float32, mm, and where it is known, (n,) bool; the mesh may be evaluated."""
+    count = len(mesh.vertices)
+    stored, known = np.zeros(count, np.float32), np.zeros(count, np.float32)
+    for name, values in ((THICKNESS_ATTRIBUTE, stored), (KNOWN_ATTRIBUTE, known)):
+        attribute = mesh.attributes.get(name)
+        if attribute is not None and (attribute.domain, len(attribute.data)) == ("POINT", count):
+            attribute.data.foreach_get("value", values)
+    return stored / np.maximum(known, np.float32(MIN_KNOWN)), known > MIN_KNOWN
+
+
+def mark_known(mesh: bpy.types.Mesh) -> None:
+    """Brings a mesh up to date whose thickness was stored before it was marked as known."""
+    if mesh.library is None and THICKNESS_ATTRIBUTE in mesh.attributes and KNOWN_ATTRIBUTE not in mesh.attributes:
+        _write(mesh, KNOWN_ATTRIBUTE, np.ones(len(mesh.vertices), np.float32))
+
+
+def remove(mesh: bpy.types.Mesh) -> None:
+    """Removes the attributes and the related mesh properties."""
+    for name in (THICKNESS_ATTRIBUTE, KNOWN_ATTRIBUTE):
+        attribute = mesh.attributes.get(name)
+        if attribute is not None:
+            mesh.attributes.remove(attribute)
     for name in (MEASURED_SIZE, MEASURED_UNIT, MEASURED_CONE, MEASURED_GEOMETRY, NO_FAR_SIDE):
         mesh.pop(name, None)
