@@ -210,6 +210,8 @@ def unregister() -> None:
         handlers = getattr(bpy.app.handlers, event)
         if handler in handlers:
             handlers.remove(handler)
+    # Whoever saves the file from now on, and whoever renders it, has the pixels that are shown now.
+    on_save(None, None)
     bpy.msgbus.clear_by_owner(SUBSCRIPTIONS)
     if bpy.app.timers.is_registered(update_windows):
         bpy.app.timers.unregister(update_windows)

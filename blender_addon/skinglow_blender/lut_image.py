@@ -11,7 +11,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from . import working_space
+from . import blender_version, working_space
 from .errors import SkinError
 from .lut_layout import LAYOUT_PROPERTY, Layout
 
@@ -94,7 +94,14 @@ def ensure_images(group: bpy.types.NodeTree, width: int, rows: int) -> None:
         return
     images = images_of(group)
     if len(images) != len(SLOTS):
-        images = [_new_image(f".Skinglow LUT {slot.replace('_', ' ')}", width, _power_of_two(rows)) for slot in SLOTS]
+        images = []
+        try:
+            for slot in SLOTS:
+                images.append(_new_image(f".Skinglow LUT {slot.replace('_', ' ')}", width, _power_of_two(rows)))
+        except SkinError:
+            for image in images:
+                bpy.data.images.remove(image)
+            raise
         # Each points to all four, so that the visible one keeps the others in the file and in appended copies.
         for image in images:
             for slot, other in zip(SLOTS, images, strict=True):
@@ -115,8 +122,12 @@ def _power_of_two(rows: int) -> int:
 
 def _new_image(name: str, width: int, height: int) -> bpy.types.Image:
     image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
-    # Must be set before the pixels: setting it clears them.
-    image.colorspace_settings.name = "Non-Color"
+    try:
+        # Must be set before the pixels: setting it clears them.
+        image.colorspace_settings.name = blender_version.data_color_space(image)
+    except SkinError:
+        bpy.data.images.remove(image)
+        raise
     image.alpha_mode = "CHANNEL_PACKED"
     # Otherwise EEVEE would upload half floats.
     image.use_half_precision = False

@@ -198,7 +198,7 @@ def _write_lut(colors: np.ndarray, path: Path) -> Path:
     image = bpy.data.images.new(".Skinglow export", len(colors), 1, alpha=False, float_buffer=True)
     partial = path.with_name(f".{path.name}.part.exr")
     try:
-        image.colorspace_settings.name = "Non-Color"
+        image.colorspace_settings.name = blender_version.data_color_space(image)
         pixels = np.ones((len(colors), 4), np.float32)
         pixels[:, :3] = colors
         image.pixels.foreach_set(pixels.ravel())

@@ -42,15 +42,17 @@ class SceneLight(NamedTuple):
         return self if fraction == 1.0 else self._replace(signature=(*self.signature[:-1], fraction))
 
 
-def read_light(obj: bpy.types.Object, matrix: Matrix, name: str) -> SceneLight:
-    """Reads an evaluated light object with the given world matrix."""
+def read_light(obj: bpy.types.Object, matrix: Matrix, name: str, target: str = "ALL") -> SceneLight:
+    """Reads an evaluated light object with the given world matrix, for the renders of `target`
+    (blender_version.output_target).
+    """
     light = obj.data
     kind = light.type
     color = tuple(light.color)
     power = light.energy
     note = ""
     if blender_version.shader_tree(light) is not None:
-        nodes = node_factor(light)
+        nodes = node_factor(light, target)
         color = tuple(a * b for a, b in zip(color, nodes.color, strict=True))
         power *= nodes.strength
         note = nodes.note
@@ -64,6 +66,9 @@ def read_light(obj: bpy.types.Object, matrix: Matrix, name: str) -> SceneLight:
 
     (_, _, ax, px), (_, _, ay, py), (_, _, az, pz), _ = matrix
     direction = (-ax, -ay, -az)
+    if kind == "AREA":
+        direction = _area_axis(matrix)
+    note = note or _transform_note(kind, matrix)
     shape = tuple(_shape(light, kind, matrix).items())
     normalized = blender_version.light_is_normalized(light)
     signature = (name, kind, color, power, (px, py, pz), direction, shape, normalized, 1.0)
@@ -93,6 +98,32 @@ def _light_of(signature: tuple) -> Any:  # noqa: ANN401
     if not normalized:
         light = sg.Light(power=power * sg.unnormalized_power_factor(light), **fields)
     return light
+
+
+def _area_axis(matrix: Matrix) -> tuple[float, float, float]:
+    """The axis of an area light: Cycles takes the normal of its two sides, whatever became of its own z axis."""
+    x, y, z = (column.to_3d() for column in matrix.col[:3])
+    normal = x.cross(y)
+    if normal.length == 0.0:
+        return tuple(-z)
+    return tuple(-normal if normal.dot(z) > 0.0 else normal)
+
+
+#: Relative difference of lengths, and cosine of angles, that may come from single precision alone.
+ROUNDED = 1e-5
+
+
+def _transform_note(kind: str, matrix: Matrix) -> str:
+    """What of a light's transform is not followed, or ""."""
+    x, y, z = (column.to_3d() for column in matrix.col[:3])
+    if kind == "AREA" and abs(x.dot(y)) > ROUNDED * x.length * y.length:
+        return "the uneven scale of its parent skews it, which a render shows differently: apply that scale"
+    lengths = [x.length, y.length, z.length]
+    is_uneven = max(lengths) - min(lengths) > ROUNDED * max(lengths)
+    is_skewed = max(abs(x.dot(z)), abs(y.dot(z))) > ROUNDED * max(lengths) ** 2
+    if kind == "SPOT" and (is_uneven or is_skewed):
+        return "its scale is uneven, which changes the cone in a render: apply the scale"
+    return ""
 
 
 def _shape(light: bpy.types.Light, kind: str, matrix: Matrix) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import bpy
 from mathutils import Matrix, Vector
 
+from .blender_version import output_target
 from .scene_lights import SceneLight, read_light
 from .scene_world import World, read_world
 from .skin_settings import TISSUE_SLIDERS, as_typed
@@ -62,6 +63,7 @@ def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
     seen: set[str] = set()
     may_instance = False
 
+    target = output_target(depsgraph.scene)
     layer = depsgraph.view_layer if depsgraph.mode == "VIEWPORT" else None
 
     def is_visible(obj: bpy.types.Object) -> bool:
@@ -71,7 +73,8 @@ def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
     def take(obj: bpy.types.Object, matrix: Matrix, instancer: bpy.types.Object | None) -> None:
         if obj.type == "LIGHT":
             if is_visible(instancer or obj):
-                lights.append(read_light(obj, matrix, f"{obj.name} in {instancer.name}" if instancer else obj.name))
+                name = f"{obj.name} in {instancer.name}" if instancer else obj.name
+                lights.append(read_light(obj, matrix, name, target))
         elif obj.type == "MESH" and obj.skinglow.enabled:
             skin = read_skin(obj, matrix)
             if skin.key not in seen:

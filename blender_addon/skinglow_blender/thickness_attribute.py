@@ -74,11 +74,15 @@ def ensure_measured(
 ) -> bool:
     """Measures and stores a mesh's thickness unless that was done for this geometry; returns whether it measured.
 
-    Custom thicknesses are kept until they are measured explicitly (Measure Thickness).
+    Custom thicknesses are kept until they are measured explicitly (Measure Thickness), and those of a linked mesh
+    always: they were measured in its own file.
     """
+    if obj.data.library is not None and THICKNESS_ATTRIBUTE in obj.data.attributes:
+        return False
     geometry = read_geometry(obj, scene)
     if is_measured(obj, geometry):
         return False
+    check_local(obj)
     store_measured(obj, scene, geometry, *measure(geometry, progress))
     return True
 
@@ -135,11 +139,6 @@ def check_mesh(obj: bpy.types.Object) -> None:
         raise SkinError(f"'{getattr(obj, 'name', obj)}' is not a mesh: select the mesh to make glow")
     if not obj.data.polygons:
         raise SkinError(f"'{obj.name}' has no faces, so no light can pass through it")
-    if obj.data.library is not None:
-        raise SkinError(
-            f"The mesh of '{obj.name}' belongs to {obj.data.library.filepath} and cannot keep a thickness: make the "
-            "skin in that file, or make object and data local first (Object > Relations > Make Local)"
-        )
     if obj.mode == "EDIT":
         raise SkinError(f"'{obj.name}' is in Edit Mode: leave it (Tab) first")
     scales = [column.to_3d().length for column in obj.matrix_world.col[:3]]
@@ -147,8 +146,18 @@ def check_mesh(obj: bpy.types.Object) -> None:
         raise SkinError(f"'{obj.name}' has scale 0 along an axis, so it has no thickness: change its scale")
 
 
+def check_local(obj: bpy.types.Object) -> None:
+    """Raises SkinError if the object's mesh is linked from a library: what is stored in it is lost with the session."""
+    if obj.data.library is not None:
+        raise SkinError(
+            f"The mesh of '{obj.name}' belongs to {obj.data.library.filepath} and cannot keep a thickness: make the "
+            "skin in that file, or make object and data local first (Object > Relations > Make Local)"
+        )
+
+
 def store(obj: bpy.types.Object, thickness_mm: Sequence[float], unit_mm: float) -> None:
     """Stores thicknesses, one per vertex in mm, and the related mesh properties; unit_mm: mm per scene unit."""
+    check_local(obj)
     mesh = obj.data
     values = np.ascontiguousarray(thickness_mm, np.float32)
     if values.shape != (len(mesh.vertices),):

@@ -53,7 +53,7 @@ def rig_inputs(scene: bpy.types.Scene, ready: ReadyRig, onto: tuple[float, float
     """Digests of the additional inputs of one rig: its lights, its file and the target point."""
     lights = [
         [
-            read_light(obj, obj.matrix_world, obj.name).signature,
+            read_light(obj, obj.matrix_world, obj.name, blender_version.output_target(scene)).signature,
             obj.visible_diffuse,
             _animation(obj),
             _animation(obj.data),
