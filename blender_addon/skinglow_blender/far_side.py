@@ -9,8 +9,9 @@ import numpy as np
 from mathutils import Matrix
 
 from .errors import core
+from .measured_size import MEASURED_UNIT, scale_since_measured
 from .mesh_reading import evaluated_mesh
-from .scene_reading import MEASURED_UNIT, MM_PER_METER, Skin, scale_since_measured
+from .scene_reading import MM_PER_METER, Skin
 from .thickness_attribute import read
 
 #: Samples per skin; docs/accuracy.md has the error by their number.

@@ -6,9 +6,9 @@ import bpy
 from .light_list_panel import SKINGLOW_UL_lights, draw_lights
 from .live_update import STATE
 from .lut_preview import icon_of
+from .measured_geometry import unit_mm
 from .measuring_operators import measuring_now
 from .skin_panel import draw_look, draw_lookup, draw_thickness
-from .thickness_attribute import unit_mm
 from .wrapped_text import draw_wrapped
 
 

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import bpy
 import numpy as np
 
-from . import thickness_attribute, working_space, world_image
+from . import measured_geometry, thickness_attribute, working_space, world_image
 from .errors import SkinError
 from .live_update import STATE, Rebuilt, update_scene
 from .lut_image import group_layout, image_pair, read_row, remove_images, shown_image
@@ -47,7 +47,7 @@ def make_skin(obj: bpy.types.Object, thickness: Sequence[float] | None = None, *
                "point"), size, max_thickness_mm, unit_mm, rays, ... Another call changes only the given ones.
     Raises SkinError if the object cannot be a skin, ValueError naming a setting that is not allowed.
     """
-    thickness_attribute.check_mesh(obj)
+    measured_geometry.check_mesh(obj)
     if "reference_point" in settings:
         settings.setdefault("reference", "POINT")
     with applied(obj.skinglow, settings):
@@ -55,7 +55,7 @@ def make_skin(obj: bpy.types.Object, thickness: Sequence[float] | None = None, *
         if thickness is None:
             thickness_attribute.ensure_measured(obj, scene)
         else:
-            thickness_attribute.store(obj, thickness, thickness_attribute.unit_mm(obj, scene))
+            thickness_attribute.store(obj, thickness, measured_geometry.unit_mm(obj, scene))
 
         group = add_to_materials(obj, obj.skinglow.group)
         if obj.skinglow.group != group:
@@ -90,7 +90,7 @@ def state_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SkinState
         size=skin.base[1],
         max_thickness_mm=skin.base[2],
         thickness_mm=(float(values.min()), float(values.max())) if len(values) else (0.0, 0.0),
-        unit_mm=thickness_attribute.unit_mm(obj, depsgraph.scene),
+        unit_mm=measured_geometry.unit_mm(obj, depsgraph.scene),
         row=settings.row,
         rebuilt=(),
     )

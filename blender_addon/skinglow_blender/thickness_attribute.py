@@ -1,65 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The thickness of a mesh at each vertex, mm, stored as the attribute that the node group reads."""
 
-import hashlib
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
 
 import bpy
 import numpy as np
 
 from .errors import SkinError, core
-from .scene_reading import MEASURED_CONE, MEASURED_SIZE, MEASURED_UNIT, MM_PER_METER
+from .measured_geometry import Geometry, read_geometry
+from .measured_size import MEASURED_CONE, MEASURED_SAMPLES, MEASURED_SIZE, MEASURED_UNIT, samples_of
 from .skin_group import KNOWN_ATTRIBUTE, MIN_KNOWN, THICKNESS_ATTRIBUTE
-from .skin_settings import as_typed
 
 #: Mesh property: digest of the measured geometry, or GIVEN for custom thicknesses.
 MEASURED_GEOMETRY = "skinglow_measured"
 GIVEN = "given"
 #: Mesh property: fraction of the vertices at which no far side was found.
 NO_FAR_SIDE = "skinglow_no_far_side"
-
-
-def unit_mm(obj: bpy.types.Object, scene: bpy.types.Scene) -> float:
-    """Millimeters per scene unit: the skin's own setting, or the scene's unit scale."""
-    own = as_typed(obj.skinglow.unit_mm)
-    return own if own > 0.0 else MM_PER_METER * scene.unit_settings.scale_length
-
-
-class Geometry(NamedTuple):
-    """The input of a thickness measurement."""
-
-    vertices: np.ndarray  #: (n, 3) float64, world, scene units
-    triangles: np.ndarray  #: (m, 3) int32, counter-clockwise seen from outside
-    unit_mm: float
-    rays: int
-    min_sky_visibility: float  #: min fraction of the sky visible from a far side that lets light in
-
-    def digest(self) -> str:
-        """A digest of everything the thickness depends on."""
-        state = hashlib.sha256(self.vertices.tobytes())
-        state.update(self.triangles.tobytes())
-        state.update(f"{self.unit_mm} {self.rays} {self.min_sky_visibility}".encode())
-        return state.hexdigest()
-
-
-def read_geometry(obj: bpy.types.Object, scene: bpy.types.Scene) -> Geometry:
-    """The mesh in world orientation and scale, without modifiers: the attribute is stored on its own vertices."""
-    check_mesh(obj)
-    mesh = obj.data
-    vertices = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.vertices.foreach_get("co", vertices)
-    mesh.calc_loop_triangles()
-    triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
-    mesh.loop_triangles.foreach_get("vertices", triangles)
-    triangles = triangles.reshape(-1, 3)
-    # Without the translation, which does not matter and would cost precision.
-    world = vertices.reshape(-1, 3) @ np.array(obj.matrix_world, np.float64)[:3, :3].T
-    if obj.matrix_world.determinant() < 0.0:
-        triangles = triangles[:, ::-1]  # mirroring reverses the winding order
-    return Geometry(
-        world, np.ascontiguousarray(triangles), unit_mm(obj, scene), obj.skinglow.rays, obj.skinglow.min_openness
-    )
 
 
 def is_measured(obj: bpy.types.Object, geometry: Geometry) -> bool:
@@ -113,7 +69,7 @@ def no_far_side_text(mesh: bpy.types.Mesh) -> str:
 
 
 def measure(geometry: Geometry, progress: Callable[[float], bool] | None = None) -> tuple[np.ndarray, np.ndarray]:
-    """Thickness at each vertex, (n,) mm, and where no far side was found, (n,) bool.
+    """Thickness at each of the mesh's own vertices, (v,) mm, and where no far side was found, (v,) bool.
 
     `progress` is called with the completed fraction, returns False to stop.
     """
@@ -123,7 +79,7 @@ def measure(geometry: Geometry, progress: Callable[[float], bool] | None = None)
             "This build of the core was made without Embree and measures no thickness: pass thicknesses as "
             "make_skin(obj, thickness=[mm, ...])"
         )
-    return sg.thickness_report(
+    thickness, no_far_side = sg.thickness_report(
         geometry.vertices,
         geometry.triangles,
         unit_mm=geometry.unit_mm,
@@ -131,19 +87,9 @@ def measure(geometry: Geometry, progress: Callable[[float], bool] | None = None)
         min_sky_visibility=geometry.min_sky_visibility,
         progress=progress,
     )
-
-
-def check_mesh(obj: bpy.types.Object) -> None:
-    """Raises SkinError for an object that cannot be a skin."""
-    if obj is None or obj.type != "MESH":
-        raise SkinError(f"'{getattr(obj, 'name', obj)}' is not a mesh: select the mesh to make glow")
-    if not obj.data.polygons:
-        raise SkinError(f"'{obj.name}' has no faces, so no light can pass through it")
-    if obj.mode == "EDIT":
-        raise SkinError(f"'{obj.name}' is in Edit Mode: leave it (Tab) first")
-    scales = [column.to_3d().length for column in obj.matrix_world.col[:3]]
-    if min(scales) == 0.0 or obj.matrix_world.to_3x3().determinant() == 0.0:
-        raise SkinError(f"'{obj.name}' has scale 0 along an axis, so it has no thickness: change its scale")
+    if geometry.shown_as is None:
+        return thickness, no_far_side
+    return thickness[geometry.shown_as], no_far_side[geometry.shown_as]
 
 
 def check_local(obj: bpy.types.Object) -> None:
@@ -171,6 +117,7 @@ def store(obj: bpy.types.Object, thickness_mm: Sequence[float], unit_mm: float) 
     mesh[MEASURED_GEOMETRY] = GIVEN
     mesh.pop(NO_FAR_SIDE, None)
     mesh[MEASURED_SIZE] = abs(obj.matrix_world.to_3x3().determinant()) ** (1.0 / 3.0)
+    mesh[MEASURED_SAMPLES] = samples_of(mesh)
     mesh[MEASURED_UNIT] = unit_mm
     normals = np.empty(3 * len(mesh.vertices), np.float32)
     mesh.vertices.foreach_get("normal", normals)
@@ -212,5 +159,5 @@ def remove(mesh: bpy.types.Mesh) -> None:
         attribute = mesh.attributes.get(name)
         if attribute is not None:
             mesh.attributes.remove(attribute)
-    for name in (MEASURED_SIZE, MEASURED_UNIT, MEASURED_CONE, MEASURED_GEOMETRY, NO_FAR_SIDE):
+    for name in (MEASURED_SIZE, MEASURED_SAMPLES, MEASURED_UNIT, MEASURED_CONE, MEASURED_GEOMETRY, NO_FAR_SIDE):
         mesh.pop(name, None)
