@@ -136,9 +136,16 @@ def _new_image(name: str, width: int, height: int) -> bpy.types.Image:
 
 def remove_images(group: bpy.types.NodeTree) -> None:
     """Deletes a group's images."""
-    for image in images_of(group):
-        if image.library is None:
-            bpy.data.images.remove(image)
+    delete_images([image for image in images_of(group) if image.library is None])
+
+
+def delete_images(images: list[bpy.types.Image]) -> None:
+    """Deletes images that may point to each other: Blender 5.0 crashes over what points to a deleted image."""
+    for image in images:
+        for slot in SLOTS:
+            image.skinglow.property_unset(slot)
+    for image in images:
+        bpy.data.images.remove(image)
 
 
 class Atlas:
@@ -147,6 +154,7 @@ class Atlas:
     def __init__(self, group: bpy.types.NodeTree, mode: str) -> None:
         self.mode = mode
         pair = image_pair(group, mode)
+        self._data = _addresses(group, mode)
         width, height = pair[0].size
         self.layout = group_layout(group)
         self.pixels = np.zeros((height, width, 4), np.float32)
@@ -163,7 +171,12 @@ class Atlas:
         self._is_compared = False
 
     def fits(self, group: bpy.types.NodeTree) -> bool:
-        """Whether size and layout of the images and the file's working space are still those of this atlas."""
+        """Whether group and images, their size and layout, and the file's working space are still those of this atlas.
+
+        A group made anew has the name of the deleted one.
+        """
+        if self._data != _addresses(group, self.mode):
+            return False
         width, height = image_pair(group, self.mode)[0].size
         same_shape = self.pixels.shape[:2] == (height, width) and self.layout == group_layout(group)
         return same_shape and self.space == working_space.working_space()
@@ -201,6 +214,10 @@ class Atlas:
         """Puts the up-to-date image into the nodes, unless it is there already."""
         show_image(group, image_pair(group, self.mode)[self.front])
         self.was_shown = True
+
+
+def _addresses(group: bpy.types.NodeTree, mode: str) -> tuple[int, ...]:
+    return tuple(data.as_pointer() for data in (group, *image_pair(group, mode)))
 
 
 #: Engines that draw images as GPU textures, which are updated.

@@ -73,6 +73,14 @@ def read_geometry(obj: bpy.types.Object, scene: bpy.types.Scene) -> Geometry:
     )
 
 
+def mesh_digest(obj: bpy.types.Object) -> str:
+    """A digest of a mesh without its modifiers, and of their kinds."""
+    state = hashlib.sha256(vertices_of(obj.data).tobytes())
+    state.update(triangles_of(obj.data).tobytes())
+    state.update(" ".join(m.type for m in obj.modifiers if m.show_viewport).encode())
+    return state.hexdigest()
+
+
 def _shown_as(obj: bpy.types.Object, shown: np.ndarray) -> np.ndarray | None:
     """The index of each of a mesh's own vertices among those shown; None: they are the same."""
     count = len(obj.data.vertices)

@@ -33,22 +33,28 @@ def samples_of(mesh: bpy.types.Mesh) -> list[float]:
 def scale_since_measured(mesh: bpy.types.Mesh, world_size: float) -> float:
     """Factor by which a mesh, of an object of that size, has become larger, and so thicker, since it was measured."""
     measured = mesh.get(MEASURED_SIZE, world_size)
-    return _mesh_scale(mesh) * world_size / measured if measured > 0.0 else 1.0
+    return (mesh_scale(mesh) or 1.0) * world_size / measured if measured > 0.0 else 1.0
 
 
-def _mesh_scale(mesh: bpy.types.Mesh) -> float:
-    """Factor by which the mesh itself was scaled; 1 if it was changed in another way."""
+def is_reshaped(mesh: bpy.types.Mesh) -> bool:
+    """Whether vertices were added, removed, or moved in another way than by scaling and turning all; a quick look."""
+    stored = mesh.get(MEASURED_SAMPLES)
+    return stored is not None and (stored[0] != len(mesh.vertices) or mesh_scale(mesh) is None)
+
+
+def mesh_scale(mesh: bpy.types.Mesh) -> float | None:
+    """Factor by which the mesh itself was scaled, judged by its samples; None if it was changed in another way."""
     stored = mesh.get(MEASURED_SAMPLES)
     if stored is None or stored[0] != len(mesh.vertices):
-        return 1.0
+        return None
     vertices = mesh.vertices
-    # Mostly nothing was changed: two vertices say so.
-    if all(vertices[int(stored[k])].co == Vector(stored[k + 1 : k + 4]) for k in (1, len(stored) - 4)):
-        return 1.0
     then = [Vector(stored[k + 1 : k + 4]) for k in range(1, len(stored), 4)]
     now = [vertices[int(stored[k])].co for k in range(1, len(stored), 4)]
+    # Mostly nothing was changed.
+    if now == then:
+        return 1.0
     pairs = zip(zip(then, then[1:], strict=False), zip(now, now[1:], strict=False), strict=True)
     factors = [(c - d).length / (a - b).length for (a, b), (c, d) in pairs if (a - b).length > 0.0]
-    if not factors or max(factors) - min(factors) > SAME_FACTOR * max(factors):
-        return 1.0
-    return max(factors) if max(factors) > 0.0 else 1.0
+    if not factors or max(factors) == 0.0 or max(factors) - min(factors) > SAME_FACTOR * max(factors):
+        return None
+    return max(factors)

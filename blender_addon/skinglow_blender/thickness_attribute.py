@@ -7,22 +7,38 @@ import bpy
 import numpy as np
 
 from .errors import SkinError, core
-from .measured_geometry import Geometry, read_geometry
-from .measured_size import MEASURED_CONE, MEASURED_SAMPLES, MEASURED_SIZE, MEASURED_UNIT, samples_of
+from .measured_geometry import Geometry, mesh_digest, read_geometry
+from .measured_size import MEASURED_CONE, MEASURED_SAMPLES, MEASURED_SIZE, MEASURED_UNIT, mesh_scale, samples_of
 from .skin_group import KNOWN_ATTRIBUTE, MIN_KNOWN, THICKNESS_ATTRIBUTE
 
 #: Mesh property: digest of the measured geometry, or GIVEN for custom thicknesses.
 MEASURED_GEOMETRY = "skinglow_measured"
 GIVEN = "given"
+#: Mesh property: digest of the mesh itself and the kinds of its modifiers when it was measured.
+MEASURED_MESH = "skinglow_measured_mesh"
 #: Mesh property: fraction of the vertices at which no far side was found.
 NO_FAR_SIDE = "skinglow_no_far_side"
 
 
 def is_measured(obj: bpy.types.Object, geometry: Geometry) -> bool:
     """Whether the stored thickness was measured on exactly this geometry, or is custom."""
-    if THICKNESS_ATTRIBUTE not in obj.data.attributes:
+    if any(name not in obj.data.attributes for name in (THICKNESS_ATTRIBUTE, KNOWN_ATTRIBUTE)):
         return False
     return obj.data.get(MEASURED_GEOMETRY) in (GIVEN, geometry.digest())
+
+
+def is_from_measurement(mesh: bpy.types.Mesh) -> bool:
+    """Whether the stored thickness was measured, rather than given."""
+    return mesh.get(MEASURED_GEOMETRY, GIVEN) != GIVEN
+
+
+def is_of_this_mesh(obj: bpy.types.Object) -> bool:
+    """Whether mesh and modifiers are those that were measured, but for a scale of the whole.
+
+    Pose, shape keys and the settings of modifiers are not looked at: animation changes them.
+    """
+    stored = obj.data.get(MEASURED_MESH)
+    return stored is None or stored == mesh_digest(obj) or (mesh_scale(obj.data) or 1.0) != 1.0
 
 
 def ensure_measured(
@@ -56,6 +72,7 @@ def store_measured(
         raise SkinError(f"'{obj.name}' was changed while its thickness was measured: measure again")
     store(obj, thickness_mm, geometry.unit_mm)
     obj.data[MEASURED_GEOMETRY] = digest
+    obj.data[MEASURED_MESH] = mesh_digest(obj)
     obj.data[NO_FAR_SIDE] = float(np.mean(no_far_side)) if len(no_far_side) else 0.0
 
 
@@ -116,6 +133,7 @@ def store(obj: bpy.types.Object, thickness_mm: Sequence[float], unit_mm: float) 
     _write(mesh, KNOWN_ATTRIBUTE, np.ones_like(values))
     mesh[MEASURED_GEOMETRY] = GIVEN
     mesh.pop(NO_FAR_SIDE, None)
+    mesh.pop(MEASURED_MESH, None)
     mesh[MEASURED_SIZE] = abs(obj.matrix_world.to_3x3().determinant()) ** (1.0 / 3.0)
     mesh[MEASURED_SAMPLES] = samples_of(mesh)
     mesh[MEASURED_UNIT] = unit_mm
@@ -159,5 +177,13 @@ def remove(mesh: bpy.types.Mesh) -> None:
         attribute = mesh.attributes.get(name)
         if attribute is not None:
             mesh.attributes.remove(attribute)
-    for name in (MEASURED_SIZE, MEASURED_SAMPLES, MEASURED_UNIT, MEASURED_CONE, MEASURED_GEOMETRY, NO_FAR_SIDE):
+    for name in (
+        MEASURED_SIZE,
+        MEASURED_SAMPLES,
+        MEASURED_UNIT,
+        MEASURED_CONE,
+        MEASURED_GEOMETRY,
+        MEASURED_MESH,
+        NO_FAR_SIDE,
+    ):
         mesh.pop(name, None)
