@@ -25,8 +25,12 @@ from . import (
     skin,
     skin_settings,
 )
+from . import (
+    health as skin_health,
+)
 from .batch import BatchResult, BatchStep, Rig
 from .errors import SkinError
+from .health import Fault
 from .live_update import Rebuilt
 from .skin import SkinState
 
@@ -43,12 +47,14 @@ bl_info = {
 __all__ = [
     "BatchResult",
     "BatchStep",
+    "Fault",
     "Rebuilt",
     "Rig",
     "SkinError",
     "SkinState",
     "batch_main",
     "export_povray",
+    "health",
     "light_report",
     "lut",
     "make_skin",
@@ -107,6 +113,7 @@ make_skin = _registering(skin.make_skin)
 update = _registering(skin.update)
 lut = _registering(skin.lut)
 light_report = _registering(light_listing.light_report)
+health = _registering(skin_health.health)
 export_povray = _registering(povray_export.export_povray)
 remove_skin = _registering(skin.remove_skin)
 render_batch = _registering(batch.render_batch)

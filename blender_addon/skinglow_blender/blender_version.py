@@ -4,6 +4,8 @@
 import bpy
 import numpy as np
 
+from .errors import SkinError
+
 VERSION = bpy.app.version
 
 #: Before 4.0 the power of area lights and wide suns was normalized differently (skinglow.LEGACY_AREA_POWER_FACTOR,
@@ -31,6 +33,34 @@ def shader_tree(owner: bpy.types.ID) -> bpy.types.NodeTree | None:
     if VERSION < (5, 0, 0) and not owner.use_nodes:
         return None
     return owner.node_tree
+
+
+def output_target(scene: bpy.types.Scene) -> str:
+    """Which of the output nodes of a material, light or world the scene's engine uses."""
+    engine = scene.render.engine
+    return "EEVEE" if engine.startswith("BLENDER_EEVEE") else "CYCLES" if engine == "CYCLES" else "ALL"
+
+
+def data_color_space(image: bpy.types.Image) -> str:
+    """The name of the color space of plain numbers in the file's color management, which need not be Blender's own.
+
+    Raises SkinError if it has none.
+    """
+    settings = image.colorspace_settings
+    before = settings.name
+    names = [item.identifier for item in settings.bl_rna.properties["name"].enum_items]
+    try:
+        # Blender's own name first, then that of ACES.
+        for name in sorted(names, key=lambda name: (name != "Non-Color", name != "Raw")):
+            settings.name = name
+            if settings.is_data:
+                return name
+    finally:
+        settings.name = before
+    raise SkinError(
+        "The color management has no color space for data, in which the lookup is stored: mark one as data "
+        "(isdata: true) in the OpenColorIO configuration"
+    )
 
 
 def world_override(layer: bpy.types.ViewLayer) -> bpy.types.World | None:

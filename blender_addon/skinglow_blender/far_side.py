@@ -9,9 +9,10 @@ import numpy as np
 from mathutils import Matrix
 
 from .errors import core
+from .measured_size import MEASURED_UNIT, scale_since_measured
 from .mesh_reading import evaluated_mesh
-from .scene_reading import MEASURED_UNIT, MM_PER_METER, Skin, scale_since_measured
-from .skin_group import THICKNESS_ATTRIBUTE
+from .scene_reading import MM_PER_METER, Skin
+from .thickness_attribute import read
 
 #: Samples per skin; docs/accuracy.md has the error by their number.
 MAX_SAMPLES = 256
@@ -31,16 +32,13 @@ def far_side_of(obj: bpy.types.Object, matrix: Matrix, skin: Skin) -> FarSide:
     """
     to_world = np.array(matrix, np.float64)
     with evaluated_mesh(obj) as mesh:
-        count = len(mesh.vertices)
-        attribute = mesh.attributes.get(THICKNESS_ATTRIBUTE)
-        if attribute is None or len(attribute.data) != count or count == 0:
+        thickness_mm, known = read(mesh)
+        if not known.any():
             return FarSide(np.empty((0, 3)), np.empty((0, 3)))
-        thickness_mm = np.empty(count, np.float32)
-        attribute.data.foreach_get("value", thickness_mm)
         original = obj.original.data
         thickness_mm *= scale_since_measured(original, skin.world_size)
-        thin = np.flatnonzero(thickness_mm < skin.base[2])
-        candidates = thin if len(thin) else np.arange(count)
+        thin = np.flatnonzero(known & (thickness_mm < skin.base[2]))
+        candidates = thin if len(thin) else np.flatnonzero(known)
         chosen = candidates[_sample_indices(len(candidates))]
         # One by one: reading all normals of a large mesh would take longer than tracing the rays.
         vertices = np.array([mesh.vertices[i].co for i in chosen.tolist()], np.float64)

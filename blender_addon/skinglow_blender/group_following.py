@@ -7,7 +7,7 @@ A skin has its row in the images of one node group. If it, or a mesh that it sha
 
 import bpy
 
-from .lut_image import SLOTS, images_of, shown_image, skin_groups
+from .lut_image import SLOTS, delete_images, images_of, shown_image, skin_groups
 from .skin_material import skin_node
 
 
@@ -48,6 +48,4 @@ def remove_orphans() -> None:
     """Deletes lookup images that no group uses: Blender never does, because they point to each other."""
     shown = {image for group in skin_groups() for image in [shown_image(group), *images_of(group)]}
     ours = [i for i in bpy.data.images if i.library is None and getattr(i.skinglow, SLOTS[0]) is not None]
-    for image in ours:
-        if image not in shown:
-            bpy.data.images.remove(image)
+    delete_images([image for image in ours if image not in shown])

@@ -10,12 +10,11 @@ from bpy.app.handlers import persistent
 
 from . import occlusion, world_image
 from .errors import SkinError
-from .group_following import follow_materials, may_change_groups, remove_orphans
+from .file_upgrade import upgrade
+from .group_following import follow_materials, remove_orphans
 from .live_update import STATE, update_scene
-from .lut_image import images_of, skin_groups
-
-#: Types of data whose changes cannot affect a light, the world or the position of a skin.
-IRRELEVANT = frozenset(("Material", "Image", "Texture", "Brush", "Text", "Action", "Screen", "WindowManager"))
+from .lut_image import GROUP_PROPERTY, images_of, skin_groups
+from .relevant_updates import changes_of
 
 
 def guarded(function: Callable[..., None]) -> Callable[..., None]:
@@ -34,6 +33,11 @@ def guarded(function: Callable[..., None]) -> Callable[..., None]:
     return persistent(handler)
 
 
+def has_skins() -> bool:
+    """Whether the file has, or had since the last update, a skin; costs nothing in those that have none."""
+    return bool(STATE.owners or STATE.faults) or any(GROUP_PROPERTY in tree for tree in bpy.data.node_groups)
+
+
 def is_shown(depsgraph: bpy.types.Depsgraph) -> bool:
     """Whether a depsgraph belongs to a render or to a view layer shown in a window.
 
@@ -48,31 +52,25 @@ def is_shown(depsgraph: bpy.types.Depsgraph) -> bool:
 @guarded
 def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Called after an edit."""
-    if not is_shown(depsgraph):
+    if not has_skins() or not is_shown(depsgraph):
         return
-    if any(may_change_groups(update) for update in depsgraph.updates):
+    changes = changes_of(depsgraph)
+    if changes.materials:
         follow_materials()
-    images_changed = _forget_changed_images(depsgraph)
-    kinds = [type(update.id).__name__ for update in depsgraph.updates]
-    # Blender 3.4 reports changed images without saying which.
-    if kinds and IRRELEVANT.issuperset(kinds) and not images_changed:
+    known_images = [name for name in changes.images if world_image.is_known(name)]
+    for name in known_images:
+        world_image.forget(name)
+    if not known_images and not changes.skins:
         return
     if update_scene(depsgraph, only_live=True):
         update_windows_soon()
 
 
-def _forget_changed_images(depsgraph: bpy.types.Depsgraph) -> bool:
-    """Marks changed images of a world to be reread; returns whether there were any."""
-    changed = {u.id.original.name_full for u in depsgraph.updates if isinstance(u.id, bpy.types.Image)}
-    known = [name for name in changed if world_image.is_known(name)]
-    for name in known:
-        world_image.forget(name)
-    return bool(known)
-
-
 @guarded
 def on_frame_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Called after a frame change: in an animation render this is the only depsgraph with that frame's lights."""
+    if not has_skins():
+        return
     if depsgraph.mode == "RENDER" and STATE.render_frame not in (None, scene.frame_current_final):
         # A motion blur step. The lookup is that of the frame itself; writing now would overwrite it before the renderer
         # has read it.
@@ -128,7 +126,7 @@ def update_windows_soon() -> None:
 
 def update_windows() -> None:
     """Updates the scenes in the windows."""
-    if STATE.rendering:
+    if STATE.rendering or not has_skins():
         return
     try:
         for window in bpy.context.window_manager.windows:
@@ -143,6 +141,7 @@ def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
     """Called after loading a file. Evaluations during loading are not reported, so everything is updated here."""
     forget_all()
     follow_windows()  # loading clears subscriptions
+    upgrade()
     if bpy.context.view_layer is not None and any(obj.skinglow.enabled for obj in bpy.data.objects):
         update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
     remove_orphans()
@@ -211,6 +210,8 @@ def unregister() -> None:
         handlers = getattr(bpy.app.handlers, event)
         if handler in handlers:
             handlers.remove(handler)
+    # Whoever saves the file from now on, and whoever renders it, has the pixels that are shown now.
+    on_save(None, None)
     bpy.msgbus.clear_by_owner(SUBSCRIPTIONS)
     if bpy.app.timers.is_registered(update_windows):
         bpy.app.timers.unregister(update_windows)

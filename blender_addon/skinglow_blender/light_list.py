@@ -14,6 +14,7 @@ from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty, In
 from .errors import SkinError
 from .light_listing import light_report
 from .live_update import STATE
+from .scene_reading import SceneReading
 
 #: Seconds between a request and the update: the update interval while a light is dragged.
 DELAY = 0.05
@@ -79,13 +80,20 @@ def fill_requested() -> int:
         if obj is None or layer is None or layer.depsgraph is None:
             continue
         try:
-            rows = light_report(obj, layer.depsgraph)
+            rows = light_report(obj, layer.depsgraph, _last_reading(layer.depsgraph, stamp[0]))
         except (SkinError, ValueError):
             continue  # the panel shows the fault of the update
         _fill(lists.get(key) or _new_list(lists, key), rows)
         _filled[key] = stamp
         filled += 1
     return filled
+
+
+def _last_reading(depsgraph: bpy.types.Depsgraph, updates: int) -> SceneReading | None:
+    """What the update read for which the list was requested, if it was of that depsgraph: nothing changed since."""
+    if STATE.reading is None or STATE.updates != updates or STATE.reading[0] != depsgraph.as_pointer():
+        return None
+    return STATE.reading[1]
 
 
 def _fill_soon() -> None:

@@ -10,12 +10,14 @@ from .errors import core
 from .lut_layout import MAX_TERMS
 from .occlusion import with_visible_fractions
 from .scene_lights import SceneLight, make_light
-from .scene_reading import Skin, read_scene, read_skin
+from .scene_reading import SceneReading, Skin, read_scene, read_skin
 from .scene_world import World
 from .skin import skin_settings_of, table_of
 
 
-def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[dict[str, Any]]:
+def light_report(
+    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, reading: SceneReading | None = None
+) -> list[dict[str, Any]]:
     """A dict for each light of the depsgraph, for the world, and for each light of the scene that is hidden from it.
 
     name      of the light object, followed by " in <instancer>" for an instance; of the world
@@ -30,12 +32,15 @@ def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[
               scene's occlusion is on and the mode is physical
     reason    why its weight is zero, or ""
     note      what of it is not supported, or ""
+
+    reading   the scene as it was just read from this depsgraph; None: it is read here
     """
     skin_settings_of(obj)
     evaluated = obj.evaluated_get(depsgraph)
     skin = read_skin(evaluated, evaluated.matrix_world)
-    reading = read_scene(depsgraph)._replace(skins=[(obj, skin)])
-    lights = with_visible_fractions(reading, depsgraph, {}).lights
+    if reading is None:
+        reading = with_visible_fractions(read_scene(depsgraph)._replace(skins=[(obj, skin)]), depsgraph, {})
+    lights = reading.lights
     far_lights = _far_lights(obj, depsgraph)
     rows = [_row(skin, light, far_lights) for light in lights]
     if reading.world is not None:
@@ -43,7 +48,8 @@ def light_report(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[
     total = sum(float(np.sum(row["weight"])) for row in rows)
     for row in rows:
         row["share"] = float(np.sum(row["weight"])) / total if total > 0.0 else 0.0
-    listed = {light.name for light in lights}
+    # An object that is shown by its instances alone is hidden itself.
+    listed = {light.object_name for light in lights if light.name == light.object_name}
     for other in depsgraph.scene.objects:
         if other.type == "LIGHT" and other.name not in listed:
             hidden = _entry(other.name, other.data.type, reason=_why_hidden(other, depsgraph))
@@ -82,7 +88,7 @@ def _row(skin: Skin, scene_light: SceneLight, far_lights: frozenset[str]) -> dic
         notes.append(f"more than {MAX_TERMS} lights: treated as distant")
     row = _entry(scene_light.name, scene_light.signature[1], scene_light.unlit_reason, "; ".join(filter(None, notes)))
     row["visible"] = visible
-    if not row["reason"] and not scene_light.lights(skin.name):
+    if not row["reason"] and not scene_light.lights(skin.key):
         row["reason"] = "light linking excludes this object"
     try:
         light = make_light(scene_light.seen_by(skin.key))

@@ -20,8 +20,8 @@ class NodeFactor(NamedTuple):
 WITHOUT_NODES = NodeFactor((1.0, 1.0, 1.0), 1.0, "")
 
 
-def node_factor(light: bpy.types.Light) -> NodeFactor:
-    """Reads the Emission node that drives a light.
+def node_factor(light: bpy.types.Light, target: str) -> NodeFactor:
+    """Reads the Emission node that drives a light in the renders of `target` (blender_version.output_target).
 
     Its values are evaluated as far as node_values.py can. Without an active output, or with nothing linked to it, the
     light is dark.
@@ -29,7 +29,7 @@ def node_factor(light: bpy.types.Light) -> NodeFactor:
     tree = blender_version.shader_tree(light)
     if tree is None:
         return WITHOUT_NODES
-    output = tree.get_output_node("ALL")
+    output = tree.get_output_node(target)
     source = linked_node(output.inputs["Surface"]) if output is not None else None
     if source is None:
         return NodeFactor((0.0, 0.0, 0.0), 0.0, "its nodes have no shader linked to the output")

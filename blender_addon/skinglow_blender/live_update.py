@@ -43,6 +43,8 @@ class LiveState:
         self.owners: dict[tuple[str, int], tuple[str, str | None]] = {}
         self.rendering = False
         self.render_frame: float | None = None
+        #: What the last update read, and of which depsgraph; None if undo or load made its objects invalid.
+        self.reading: tuple[int, SceneReading] | None = None
         #: Number of updates, one per edit: anything derived at a lower number may be out of date.
         self.updates = 0
 
@@ -51,6 +53,7 @@ class LiveState:
         self.atlases.clear()
         self.owners.clear()
         self.faults.clear()
+        self.reading = None
 
 
 STATE = LiveState()
@@ -64,6 +67,7 @@ def update_scene(depsgraph: bpy.types.Depsgraph, only_live: bool = False) -> lis
     STATE.updates += 1
     faults: dict[str, str] = {}
     reading = with_visible_fractions(read_scene(depsgraph), depsgraph, faults)
+    STATE.reading = (depsgraph.as_pointer(), reading)
     rebuilt: list[Rebuilt] = []
     groups: dict[str, tuple[bpy.types.NodeTree, list[tuple[bpy.types.Object, Skin]]]] = {}
     for obj, skin in reading.skins:

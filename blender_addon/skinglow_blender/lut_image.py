@@ -11,7 +11,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from . import working_space
+from . import blender_version, working_space
 from .errors import SkinError
 from .lut_layout import LAYOUT_PROPERTY, Layout
 
@@ -20,8 +20,9 @@ FIRST_ROWS = 16
 NODE_NAMES = ("LUT below", "LUT above")
 #: In a group that lights per pixel: the node of the inner group that reads a texel, and the image node in it.
 TEXEL_NODE, SURFACE_NODE = "LUT texel", "LUT"
-#: Custom property that marks our node groups.
+#: Custom property that marks our node groups, and the version of their nodes (file_upgrade.py).
 GROUP_PROPERTY = "skinglow"
+GROUP_VERSION = 2
 SLOTS = ("viewport_a", "viewport_b", "render_a", "render_b")
 
 
@@ -93,7 +94,14 @@ def ensure_images(group: bpy.types.NodeTree, width: int, rows: int) -> None:
         return
     images = images_of(group)
     if len(images) != len(SLOTS):
-        images = [_new_image(f".Skinglow LUT {slot.replace('_', ' ')}", width, _power_of_two(rows)) for slot in SLOTS]
+        images = []
+        try:
+            for slot in SLOTS:
+                images.append(_new_image(f".Skinglow LUT {slot.replace('_', ' ')}", width, _power_of_two(rows)))
+        except SkinError:
+            for image in images:
+                bpy.data.images.remove(image)
+            raise
         # Each points to all four, so that the visible one keeps the others in the file and in appended copies.
         for image in images:
             for slot, other in zip(SLOTS, images, strict=True):
@@ -114,8 +122,12 @@ def _power_of_two(rows: int) -> int:
 
 def _new_image(name: str, width: int, height: int) -> bpy.types.Image:
     image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
-    # Must be set before the pixels: setting it clears them.
-    image.colorspace_settings.name = "Non-Color"
+    try:
+        # Must be set before the pixels: setting it clears them.
+        image.colorspace_settings.name = blender_version.data_color_space(image)
+    except SkinError:
+        bpy.data.images.remove(image)
+        raise
     image.alpha_mode = "CHANNEL_PACKED"
     # Otherwise EEVEE would upload half floats.
     image.use_half_precision = False
@@ -124,9 +136,16 @@ def _new_image(name: str, width: int, height: int) -> bpy.types.Image:
 
 def remove_images(group: bpy.types.NodeTree) -> None:
     """Deletes a group's images."""
-    for image in images_of(group):
-        if image.library is None:
-            bpy.data.images.remove(image)
+    delete_images([image for image in images_of(group) if image.library is None])
+
+
+def delete_images(images: list[bpy.types.Image]) -> None:
+    """Deletes images that may point to each other: Blender 5.0 crashes over what points to a deleted image."""
+    for image in images:
+        for slot in SLOTS:
+            image.skinglow.property_unset(slot)
+    for image in images:
+        bpy.data.images.remove(image)
 
 
 class Atlas:
@@ -135,6 +154,7 @@ class Atlas:
     def __init__(self, group: bpy.types.NodeTree, mode: str) -> None:
         self.mode = mode
         pair = image_pair(group, mode)
+        self._data = _addresses(group, mode)
         width, height = pair[0].size
         self.layout = group_layout(group)
         self.pixels = np.zeros((height, width, 4), np.float32)
@@ -148,9 +168,15 @@ class Atlas:
         #: Which image of the pair is up to date, and whether a renderer may have read it since it was written.
         self.front = 1 if shown_image(group) == pair[1] else 0
         self.was_shown = True
+        self._is_compared = False
 
     def fits(self, group: bpy.types.NodeTree) -> bool:
-        """Whether size and layout of the images and the file's working space are still those of this atlas."""
+        """Whether group and images, their size and layout, and the file's working space are still those of this atlas.
+
+        A group made anew has the name of the deleted one.
+        """
+        if self._data != _addresses(group, self.mode):
+            return False
         width, height = image_pair(group, self.mode)[0].size
         same_shape = self.pixels.shape[:2] == (height, width) and self.layout == group_layout(group)
         return same_shape and self.space == working_space.working_space()
@@ -166,7 +192,15 @@ class Atlas:
         self.is_dirty = True
 
     def write(self, group: bpy.types.NodeTree) -> None:
-        """Writes the rows into an image that no renderer holds a copy of."""
+        """Writes the rows into an image that no renderer holds a copy of.
+
+        The first time only if it differs: a file that was opened and not changed is not to be saved again.
+        """
+        if not self._is_compared:
+            self._is_compared = True
+            if np.array_equal(_read(image_pair(group, self.mode)[self.front]), self.pixels):
+                self.is_dirty = False
+                return
         if self.was_shown and (self.mode == "RENDER" or is_rendered_in_view()):
             self.front = 1 - self.front
             self.was_shown = False
@@ -180,6 +214,10 @@ class Atlas:
         """Puts the up-to-date image into the nodes, unless it is there already."""
         show_image(group, image_pair(group, self.mode)[self.front])
         self.was_shown = True
+
+
+def _addresses(group: bpy.types.NodeTree, mode: str) -> tuple[int, ...]:
+    return tuple(data.as_pointer() for data in (group, *image_pair(group, mode)))
 
 
 #: Engines that draw images as GPU textures, which are updated.
@@ -205,7 +243,12 @@ def is_rendered_in_view() -> bool:
 
 def read_row(image: bpy.types.Image, row: int) -> np.ndarray:
     """A row's texels, (width, 4) float32, unconverted."""
+    return _read(image)[row].copy()
+
+
+def _read(image: bpy.types.Image) -> np.ndarray:
+    """All texels, (height, width, 4) float32, unconverted."""
     width, height = image.size
     pixels = np.empty(width * height * 4, np.float32)
     image.pixels.foreach_get(pixels)
-    return pixels.reshape(height, width, 4)[row].copy()
+    return pixels.reshape(height, width, 4)

@@ -6,7 +6,8 @@ from threading import Thread
 import numpy as np
 
 from .errors import core
-from .thickness_attribute import Geometry, measure
+from .measured_geometry import Geometry
+from .thickness_attribute import measure
 
 #: Seconds to wait for the thread when Blender quits; the core checks far more often whether to go on.
 MAX_WAIT = 10.0

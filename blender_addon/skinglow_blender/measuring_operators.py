@@ -7,9 +7,9 @@ import bpy
 
 from . import skin, thickness_attribute
 from .errors import SkinError
+from .measured_geometry import Geometry, read_geometry
 from .measuring import Measuring
 from .operators import selected_meshes, selected_skins
-from .thickness_attribute import Geometry
 
 #: Seconds between two checks of the thread.
 INTERVAL = 0.1
@@ -184,7 +184,7 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
     def to_measure(self, context: bpy.types.Context) -> dict[str, Geometry]:
         found = {}
         for obj in self.targets(context):
-            geometry = thickness_attribute.read_geometry(obj, context.scene)
+            geometry = read_geometry(obj, context.scene)
             if not thickness_attribute.is_measured(obj, geometry):
                 found[obj.name_full] = geometry
         return found
@@ -216,7 +216,7 @@ class SKINGLOW_OT_bake(_MeasuringOperator, bpy.types.Operator):  # noqa: N801
         return selected_skins(context)
 
     def to_measure(self, context: bpy.types.Context) -> dict[str, Geometry]:
-        return {o.name_full: thickness_attribute.read_geometry(o, context.scene) for o in self.targets(context)}
+        return {o.name_full: read_geometry(o, context.scene) for o in self.targets(context)}
 
     def finish(self, _context: bpy.types.Context, names: list[str]) -> str:
         for name in names:

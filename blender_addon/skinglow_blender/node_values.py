@@ -5,19 +5,33 @@ import bpy
 
 
 def linked_node(socket: bpy.types.NodeSocket) -> bpy.types.Node | None:
-    """The node linked to an input, skipping reroutes; None if nothing is linked."""
+    """The node linked to an input, as `linked_socket` finds it; None if nothing is linked."""
     link = linked_socket(socket)
     return link.node if link is not None else None
 
 
 def linked_socket(socket: bpy.types.NodeSocket) -> bpy.types.NodeSocket | None:
-    """The output linked to an input, skipping reroutes; None if nothing is linked."""
-    if not socket.is_linked:
-        return None
-    source = socket.links[0].from_socket
-    while source.node.bl_idname == "NodeReroute" and source.node.inputs[0].is_linked:
-        source = source.node.inputs[0].links[0].from_socket
-    return source
+    """The output linked to an input; None if nothing is linked.
+
+    Skips reroutes, and muted nodes where Blender passes an input of theirs on; a muted link is none.
+    """
+    found = None
+    while True:
+        link = next((link for link in socket.links if not link.is_muted), None)
+        if link is None:
+            # Behind a reroute without an input the reroute itself remains.
+            return found
+        found = link.from_socket
+        node = found.node
+        if node.mute:
+            passed = next((inner for inner in node.internal_links if inner.to_socket == found), None)
+            if passed is None:
+                return None
+            socket, found = passed.from_socket, None
+        elif node.bl_idname == "NodeReroute":
+            socket = node.inputs[0]
+        else:
+            return found
 
 
 def socket_value(socket: bpy.types.NodeSocket) -> tuple[object, str]:

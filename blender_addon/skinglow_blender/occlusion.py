@@ -108,7 +108,7 @@ def _visible_fractions(
         traced = [
             i
             for i, light in enumerate(lights)
-            if light.casts_shadows and not light.unlit_reason and light.lights(skin.name)
+            if light.casts_shadows and not light.unlit_reason and light.lights(skin.key)
         ]
         if far is not None and traced:
             own = [found.own[key]] if key in found.own else []

@@ -9,6 +9,7 @@ from bpy.props import BoolProperty, StringProperty
 from . import povray_export, skin
 from .base_image import base_of_image
 from .errors import SkinError
+from .health import health, repair
 from .live_update import STATE
 from .lut_image import skin_groups
 
@@ -71,12 +72,32 @@ class SKINGLOW_OT_remove(_SelectedSkins, bpy.types.Operator):  # noqa: N801  Ble
         return self.attempt(remove)
 
 
+class SKINGLOW_OT_repair(_SelectedSkins, bpy.types.Operator):  # noqa: N801
+    """Repairs what the panel says is wrong."""
+
+    bl_idname = "skinglow.repair"
+    bl_label = "Repair Skin Glow"
+    bl_description = "Restore deleted nodes and images, and measure the thickness where it is out of date or not known"
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        def repair_all() -> str:
+            skins = selected_skins(context)
+            for obj in skins:
+                repair(obj)
+            left = [f"'{obj.name}': {fault}" for obj in skins for fault in health(obj)]
+            if left:
+                raise SkinError("; ".join(left))
+            return f"{', '.join(obj.name for obj in skins)}: all is well"
+
+        return self.attempt(repair_all)
+
+
 class SKINGLOW_OT_reset(_SelectedSkins, bpy.types.Operator):  # noqa: N801
     """Resets skins to the defaults."""
 
     bl_idname = "skinglow.reset"
     bl_label = "Reset Skin Glow"
-    bl_description = "Reset all settings of the selected skins to their defaults; the measured thickness is kept"
+    bl_description = "Reset the settings of the selected skins to their defaults; the thickness and its unit are kept"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         def reset() -> str:
@@ -164,7 +185,9 @@ class SKINGLOW_OT_select_light(_SkinOperator, bpy.types.Operator):  # noqa: N801
         def select() -> str:
             objects = context.view_layer.objects
             # An instance cannot be selected: its instancer can.
-            light = objects.get(self.light) or objects.get(self.light.rpartition(" in ")[2])
+            parts = self.light.split(" in ")
+            names = [self.light, *(" in ".join(parts[i:]) for i in range(1, len(parts)))]
+            light = next((objects[name] for name in names if name in objects), None)
             if light is None:
                 raise SkinError(f"'{self.light}' is not in this view layer: enable its collection to select it")
             if light.hide_select or not light.visible_get():
@@ -179,6 +202,7 @@ class SKINGLOW_OT_select_light(_SkinOperator, bpy.types.Operator):  # noqa: N801
 
 CLASSES = (
     SKINGLOW_OT_remove,
+    SKINGLOW_OT_repair,
     SKINGLOW_OT_reset,
     SKINGLOW_OT_update,
     SKINGLOW_OT_export_povray,

@@ -3,12 +3,13 @@
 
 import bpy
 
+from .health import quick_faults
 from .light_list_panel import SKINGLOW_UL_lights, draw_lights
 from .live_update import STATE
 from .lut_preview import icon_of
+from .measured_geometry import unit_mm
 from .measuring_operators import measuring_now
 from .skin_panel import draw_look, draw_lookup, draw_thickness
-from .thickness_attribute import unit_mm
 from .wrapped_text import draw_wrapped
 
 
@@ -32,6 +33,7 @@ class _Main:
         if not is_skin(obj):
             _draw_start(layout, obj, context)
             return
+        _draw_faults(layout, obj, context)
         row = layout.row()
         icon = icon_of(obj, context.view_layer.depsgraph)
         if icon:
@@ -40,6 +42,17 @@ class _Main:
         column.label(text=f"0 to {obj.skinglow.max_thickness_mm:.4g} mm")
         column.prop(obj.skinglow, "live", toggle=True)
         column.operator("skinglow.update", text="Update Now")
+
+
+def _draw_faults(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context) -> None:
+    faults = quick_faults(obj)
+    if not faults:
+        return
+    box = layout.box()
+    column = box.column(align=True)
+    for fault in faults:
+        draw_wrapped(column, fault.what, context, icon="ERROR")
+    box.operator("skinglow.repair", text="Repair", icon="FILE_REFRESH")
 
 
 def _draw_start(layout: bpy.types.UILayout, obj: bpy.types.Object | None, context: bpy.types.Context) -> None:

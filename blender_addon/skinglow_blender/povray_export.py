@@ -3,6 +3,7 @@
 
 import os
 import shutil
+from itertools import chain, count
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +14,10 @@ from . import blender_version, working_space
 from .errors import SkinError, core
 from .scene_lights import make_light
 from .scene_reading import SceneReading, Skin, read_scene
-from .skin_group import THICKNESS_ATTRIBUTE
 from .skin_material import skin_node
 from .skin_tables import base_lut, compute_table, lights_of
 from .texel_mapping import texels_per_mm
+from .thickness_attribute import read
 
 LUT_FILE = "lut.exr"
 
@@ -36,26 +37,40 @@ def export_povray(
     Only what the scene uses is written. Raises SkinError if there is no camera or skin, or if writing fails.
     """
     reading = read_scene(depsgraph)
-    skins = [skin for original, skin in reading.skins if obj is None or original == obj.original]
+    skins = [each for each in reading.skins if obj is None or each[0] == obj.original]
     if not skins:
         what = "no skin" if obj is None else f"no skin '{obj.name}'"
         raise SkinError(f"There is {what} to export in this view layer: make one first, and unhide it")
     if depsgraph.scene.camera is None:
         raise SkinError("The scene has no camera: POV-Ray needs one")
     written: list[Path] = []
-    for skin in skins:
-        folder = Path(directory) if len(skins) == 1 else Path(directory) / bpy.path.clean_name(skin.name)
+    names = _folder_names([skin.name for _original, skin in skins])
+    for (original, skin), name in zip(skins, names, strict=True):
+        folder = Path(directory) if len(skins) == 1 else Path(directory) / name
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            written += _export_skin(depsgraph, reading, skin, folder, surface, compute_lut)
+            written += _export_skin(depsgraph, reading, original, skin, folder, surface, compute_lut)
         except OSError as error:
             raise SkinError(f"Cannot write to {folder}: {error.strerror or error}") from error
     return written
 
 
+def _folder_names(names: list[str]) -> list[str]:
+    """A folder's name for each skin: objects of different libraries, or "a b" and "a_b", may have the same one."""
+    found: list[str] = []
+    taken: set[str] = set()
+    for name in map(bpy.path.clean_name, names):
+        # Without regard to case: some file systems have none.
+        free = next(n for n in chain((name,), (f"{name}_{i}" for i in count(2))) if n.casefold() not in taken)
+        taken.add(free.casefold())
+        found.append(free)
+    return found
+
+
 def _export_skin(
     depsgraph: bpy.types.Depsgraph,
     reading: SceneReading,
+    original: bpy.types.Object,
     skin: Skin,
     folder: Path,
     surface: bool,
@@ -63,7 +78,7 @@ def _export_skin(
 ) -> list[Path]:
     if compute_lut and skin.mode != "PAPER":
         raise SkinError(f"POV-Ray computes lookups in mode paper only; '{skin.name}' is in mode {skin.mode.lower()}")
-    obj = bpy.data.objects[skin.name].evaluated_get(depsgraph)
+    obj = original.evaluated_get(depsgraph)
     base = base_lut(skin.base)
     arguments: dict[str, Any] = _mesh_arguments(obj, skin, base)
     arguments.update(_camera_arguments(depsgraph))
@@ -99,11 +114,12 @@ def _mesh_arguments(obj: bpy.types.Object, skin: Skin, base: Any) -> dict[str, A
     """The evaluated mesh in world space, with its lookup coordinate at each vertex."""
     mesh = obj.to_mesh()
     try:
-        attribute = mesh.attributes.get(THICKNESS_ATTRIBUTE)
-        if attribute is None or attribute.domain != "POINT":
-            raise SkinError(f"'{skin.name}': a modifier removes the thickness (attribute '{THICKNESS_ATTRIBUTE}')")
-        thickness = np.empty(len(mesh.vertices), np.float32)
-        attribute.data.foreach_get("value", thickness)
+        thickness, known = read(mesh)
+        if not known.all():
+            raise SkinError(
+                f"'{skin.name}': the thickness is not known at {np.count_nonzero(~known)} of {len(known)} vertices, "
+                "which a modifier or an edit added: apply the modifier, or press Measure Thickness"
+            )
         points = np.empty(3 * len(mesh.vertices), np.float32)
         mesh.vertices.foreach_get("co", points)
         mesh.calc_loop_triangles()
@@ -182,7 +198,7 @@ def _write_lut(colors: np.ndarray, path: Path) -> Path:
     image = bpy.data.images.new(".Skinglow export", len(colors), 1, alpha=False, float_buffer=True)
     partial = path.with_name(f".{path.name}.part.exr")
     try:
-        image.colorspace_settings.name = "Non-Color"
+        image.colorspace_settings.name = blender_version.data_color_space(image)
         pixels = np.ones((len(colors), 4), np.float32)
         pixels[:, :3] = colors
         image.pixels.foreach_set(pixels.ravel())

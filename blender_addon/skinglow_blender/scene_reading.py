@@ -7,16 +7,13 @@ from typing import NamedTuple
 import bpy
 from mathutils import Matrix, Vector
 
+from .blender_version import output_target
+from .measured_size import MEASURED_CONE, MEASURED_UNIT, scale_since_measured
 from .scene_lights import SceneLight, read_light
 from .scene_world import World, read_world
 from .skin_settings import TISSUE_SLIDERS, as_typed
 
 MM_PER_METER = 1000.0
-#: Mesh properties stored when its thickness was measured: edge length of its unit cube in the world, scene units;
-#: millimeters per scene unit; bounding cone of its normals in object space (axis, half angle in radians).
-MEASURED_SIZE = "skinglow_world_size"
-MEASURED_UNIT = "skinglow_unit_mm"
-MEASURED_CONE = "skinglow_normal_cone"
 #: Custom property of a skin object that its node group reads: texels per mm, texel width, row, strength.
 ROW_PROPERTY = "skinglow_lut"
 
@@ -62,6 +59,7 @@ def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
     seen: set[str] = set()
     may_instance = False
 
+    target = output_target(depsgraph.scene)
     layer = depsgraph.view_layer if depsgraph.mode == "VIEWPORT" else None
 
     def is_visible(obj: bpy.types.Object) -> bool:
@@ -71,8 +69,9 @@ def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
     def take(obj: bpy.types.Object, matrix: Matrix, instancer: bpy.types.Object | None) -> None:
         if obj.type == "LIGHT":
             if is_visible(instancer or obj):
-                lights.append(read_light(obj, matrix, f"{obj.name} in {instancer.name}" if instancer else obj.name))
-        elif ROW_PROPERTY in obj and obj.type == "MESH" and obj.skinglow.enabled:
+                name = f"{obj.name} in {instancer.name}" if instancer else obj.name
+                lights.append(read_light(obj, matrix, name, target))
+        elif obj.type == "MESH" and obj.skinglow.enabled:
             skin = read_skin(obj, matrix)
             if skin.key not in seen:
                 seen.add(skin.key)
@@ -126,12 +125,6 @@ def _surface_bounds(obj: bpy.types.Object, matrix: Matrix, world_size: float) ->
         normal_cone=normal_cone,
         depth_per_mm=scale_since_measured(mesh, world_size) / mesh.get(MEASURED_UNIT, MM_PER_METER),
     )
-
-
-def scale_since_measured(mesh: bpy.types.Mesh, world_size: float) -> float:
-    """Factor by which the object's scale has made a mesh larger, and so thicker, since it was measured."""
-    measured = mesh.get(MEASURED_SIZE, world_size)
-    return world_size / measured if measured > 0.0 else 1.0
 
 
 def _base_key(settings: bpy.types.PropertyGroup) -> tuple:

@@ -72,7 +72,7 @@ def read_world(depsgraph: bpy.types.Depsgraph) -> World | None:
     tree = blender_version.shader_tree(world)
     if tree is None:
         return World(world.name, (Background(tuple(world.color), "", "", IDENTITY),), unlit_reason, "")
-    found = read_world_nodes(tree)
+    found = read_world_nodes(tree, blender_version.output_target(depsgraph.scene))
     return World(world.name, found.backgrounds, unlit_reason, found.note)
 
 

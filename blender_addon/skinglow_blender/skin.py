@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import bpy
 import numpy as np
 
-from . import thickness_attribute, working_space, world_image
+from . import measured_geometry, thickness_attribute, working_space, world_image
 from .errors import SkinError
 from .live_update import STATE, Rebuilt, update_scene
 from .lut_image import group_layout, image_pair, read_row, remove_images, shown_image
@@ -15,7 +15,7 @@ from .lut_layout import shown_colors
 from .scene_reading import ROW_PROPERTY, read_skin
 from .skin_group import clear
 from .skin_material import add_to_materials, remove_from_material
-from .skin_settings import SETTING_NAMES, apply_settings
+from .skin_settings import MEASURING_NAMES, SETTING_NAMES, applied
 from .skin_tables import OBJECT_WEIGHT, Table, WeightsChoice
 
 
@@ -47,29 +47,29 @@ def make_skin(obj: bpy.types.Object, thickness: Sequence[float] | None = None, *
                "point"), size, max_thickness_mm, unit_mm, rays, ... Another call changes only the given ones.
     Raises SkinError if the object cannot be a skin, ValueError naming a setting that is not allowed.
     """
-    thickness_attribute.check_mesh(obj)
+    measured_geometry.check_mesh(obj)
     if "reference_point" in settings:
         settings.setdefault("reference", "POINT")
-    apply_settings(obj.skinglow, settings)
-    scene = bpy.context.scene
-    if thickness is None:
-        thickness_attribute.ensure_measured(obj, scene)
-    else:
-        thickness_attribute.store(obj, thickness, thickness_attribute.unit_mm(obj, scene))
+    with applied(obj.skinglow, settings):
+        scene = bpy.context.scene
+        if thickness is None:
+            thickness_attribute.ensure_measured(obj, scene)
+        else:
+            thickness_attribute.store(obj, thickness, measured_geometry.unit_mm(obj, scene))
 
-    group = add_to_materials(obj, obj.skinglow.group)
-    if obj.skinglow.group != group:
-        obj.skinglow.group = group
-        obj.skinglow.row = -1
-    obj.skinglow.enabled = True
-    if ROW_PROPERTY not in obj:
-        obj[ROW_PROPERTY] = (0.0, 0.0, 0.0, 0.0)
-    obj.update_tag(refresh={"OBJECT"})
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    rebuilt = tuple(r for r in update_scene(depsgraph) if r.skin == obj.name)
-    fault = STATE.faults.get(obj.name_full)
-    if fault is not None:
-        raise SkinError(fault)
+        group = add_to_materials(obj, obj.skinglow.group)
+        if obj.skinglow.group != group:
+            obj.skinglow.group = group
+            obj.skinglow.row = -1
+        obj.skinglow.enabled = True
+        if ROW_PROPERTY not in obj:
+            obj[ROW_PROPERTY] = (0.0, 0.0, 0.0, 0.0)
+        obj.update_tag(refresh={"OBJECT"})
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        rebuilt = tuple(r for r in update_scene(depsgraph) if r.skin == obj.name)
+        fault = STATE.faults.get(obj.name_full)
+        if fault is not None:
+            raise SkinError(fault)
     return state_of(obj, depsgraph)._replace(rebuilt=rebuilt)
 
 
@@ -77,10 +77,8 @@ def state_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SkinState
     """The state of a skin in a depsgraph."""
     settings = skin_settings_of(obj)
     evaluated = obj.evaluated_get(depsgraph)
-    attribute = obj.data.attributes.get(thickness_attribute.THICKNESS_ATTRIBUTE)
-    values = np.zeros(len(attribute.data) if attribute is not None else 0, np.float32)
-    if len(values):
-        attribute.data.foreach_get("value", values)
+    values, known = thickness_attribute.read(obj.data)
+    values = values[known]
     skin = read_skin(evaluated, evaluated.matrix_world)
     choice = choice_of(obj, depsgraph)
     return SkinState(
@@ -92,7 +90,7 @@ def state_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SkinState
         size=skin.base[1],
         max_thickness_mm=skin.base[2],
         thickness_mm=(float(values.min()), float(values.max())) if len(values) else (0.0, 0.0),
-        unit_mm=thickness_attribute.unit_mm(obj, depsgraph.scene),
+        unit_mm=measured_geometry.unit_mm(obj, depsgraph.scene),
         row=settings.row,
         rebuilt=(),
     )
@@ -157,7 +155,8 @@ def remove_skin(obj: bpy.types.Object) -> None:
     group = settings.group
     settings.enabled = False
     settings.property_unset("group")
-    reset_settings(obj)
+    for name in SETTING_NAMES:
+        settings.property_unset(name)
     settings.property_unset("row")
     obj.pop(ROW_PROPERTY, None)
     skins = [o for o in bpy.data.objects if o.skinglow.enabled]
@@ -177,9 +176,12 @@ def remove_skin(obj: bpy.types.Object) -> None:
 
 
 def reset_settings(obj: bpy.types.Object) -> None:
-    """Resets all settings of `make_skin` to their defaults; the object stays a skin and keeps its thickness."""
+    """Resets the settings of `make_skin` to their defaults; the object stays a skin and keeps its thickness, and
+    with it the settings by which that was measured.
+    """
     for name in SETTING_NAMES:
-        obj.skinglow.property_unset(name)
+        if name not in MEASURING_NAMES:
+            obj.skinglow.property_unset(name)
     obj.update_tag(refresh={"OBJECT"})
 
 

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The node group that adds the transmitted light, looked up by thickness, to a surface: Surface in, Shader out.
 
+Where the thickness is not known there is no light: what a modifier or an edit adds has no thickness, which reads as 0
+and would otherwise pass for the thinnest skin.
+
 The object's custom property provides its texels per mm, the width of a texel, the v coordinate of its row and its
 strength; an object without the property has strength 0 and does not glow.
 
@@ -11,13 +14,17 @@ which the rows of different skins bleed into each other, and with 8-bit weights.
 import bpy
 
 from . import blender_version
-from .lut_image import GROUP_PROPERTY, NODE_NAMES, ensure_images, show_image, shown_image
+from .lut_image import GROUP_PROPERTY, GROUP_VERSION, NODE_NAMES, ensure_images, show_image, shown_image
 from .lut_layout import LAYOUT_PROPERTY
 from .node_building import NodeBuilder, Socket
 from .scene_reading import ROW_PROPERTY
 
 GROUP_NAME = "Skinglow"
 THICKNESS_ATTRIBUTE = "skinglow_thickness"
+#: 1 where the thickness is known. Blender fills both attributes with 0 at vertices that they were not written for.
+KNOWN_ATTRIBUTE = "skinglow_thickness_known"
+#: Thicknesses are divided by what is known of them, which is at least this.
+MIN_KNOWN = 1e-6
 #: The inner groups of a group that lights per pixel (surface_group.py). Files hold them by these names.
 INNER_GROUPS = (".Skinglow texel", ".Skinglow lamp", ".Skinglow lamp with profile")
 
@@ -31,7 +38,7 @@ def new_group() -> bpy.types.NodeTree:
     blender_version.new_group_socket(
         group, "Shader", "NodeSocketShader", "OUTPUT", "The surface plus the light transmitted through the skin"
     )
-    group[GROUP_PROPERTY] = 1
+    group[GROUP_PROPERTY] = GROUP_VERSION
     build_plain(group)
     ensure_images(group, 256, 1)
     return group
@@ -41,14 +48,24 @@ class RowSockets:
     """The common inputs of all skin groups: thickness and the object's property."""
 
     def __init__(self, build: NodeBuilder) -> None:
-        thickness = build.node("ShaderNodeAttribute", "Thickness, mm")
-        thickness.attribute_type, thickness.attribute_name = "GEOMETRY", THICKNESS_ATTRIBUTE
+        stored, known = (_mesh_attribute(build, *named) for named in STORED)
         row = build.node("ShaderNodeAttribute", "Texels/mm, texel width, row, strength")
         row.attribute_type, row.attribute_name = "OBJECT", ROW_PROPERTY
         texels_per_mm, self.texel_width, self.row = build.split(row.outputs["Vector"])
-        self.strength = row.outputs["Alpha"]
-        self.thickness = thickness.outputs["Fac"]
+        # Between a known and an unknown vertex both are interpolated: their ratio is the known one's thickness.
+        self.strength = build.math("MULTIPLY", row.outputs["Alpha"], known, label="Strength where known")
+        self.thickness = build.math("DIVIDE", stored, build.math("MAXIMUM", known, MIN_KNOWN), label="Thickness, mm")
         self.texel = build.math("MULTIPLY", self.thickness, texels_per_mm, label="Texel")
+
+
+#: The mesh attributes that the nodes read, and the nodes' labels.
+STORED = ((THICKNESS_ATTRIBUTE, "Thickness, mm"), (KNOWN_ATTRIBUTE, "Thickness known"))
+
+
+def _mesh_attribute(build: NodeBuilder, name: str, label: str) -> Socket:
+    node = build.node("ShaderNodeAttribute", label)
+    node.attribute_type, node.attribute_name = "GEOMETRY", name
+    return node.outputs["Fac"]
 
 
 def build_plain(group: bpy.types.NodeTree) -> None:

@@ -3,8 +3,9 @@
 
 import bpy
 
+from .measured_geometry import unit_mm
 from .skin_settings import TISSUE_SLIDERS
-from .thickness_attribute import no_far_side_text, unit_mm
+from .thickness_attribute import no_far_side_text
 from .wrapped_text import draw_wrapped
 
 

@@ -4,6 +4,8 @@
 Files store settings by property name: names must not change, labels may.
 """
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import lru_cache
 from typing import Any
 
@@ -175,8 +177,14 @@ class SkinSettings(bpy.types.PropertyGroup):
         update=_changed,
         description="Constant, linear and quadratic coefficients of Eq. 2, for distances in scene units",
     )
+    # Not animatable: animation sets values without calling `update`. Key the sliders.
     preset: EnumProperty(
-        name="Preset", items=PRESETS, default="LIGHT", update=_preset_chosen, description="Predefined skin"
+        name="Preset",
+        items=PRESETS,
+        default="LIGHT",
+        update=_preset_chosen,
+        options=set(),
+        description="Predefined skin",
     )
     melanin_fraction: FloatProperty(
         name="Melanin",
@@ -307,22 +315,62 @@ class LutImages(bpy.types.PropertyGroup):
     render_b: PointerProperty(type=bpy.types.Image)
 
 
+# A library's skin can be overridden in the file that uses it, and keeps what was set there.
+OVERRIDE = {"LIBRARY_OVERRIDABLE"}
+for _property in SkinSettings.__annotations__.values():
+    _property.keywords["override"] = OVERRIDE
+
 #: The settings that `make_skin` accepts.
 SETTING_NAMES = tuple(name for name in SkinSettings.__annotations__ if name not in ("enabled", "group", "row"))
 
 
-def apply_settings(settings: SkinSettings, values: dict[str, Any]) -> None:
-    """Sets properties by name; raises ValueError naming the setting and the allowed values."""
-    # The preset first: other settings modify it.
-    for name, value in sorted(values.items(), key=lambda item: item[0] != "preset"):
-        if name not in SETTING_NAMES:
-            raise ValueError(f"make_skin has no setting '{name}'; it has: {', '.join(SETTING_NAMES)}")
-        items = settings.bl_rna.properties[name]
-        upper = items.type == "ENUM" and isinstance(value, str)
-        try:
-            setattr(settings, name, value.upper() if upper else value)
-        except (TypeError, ValueError) as error:
-            raise ValueError(f"make_skin: {name} = {value!r} is not allowed: {error}") from error
+#: Of these: how thickness is measured.
+MEASURING_NAMES = ("unit_mm", "rays", "min_openness")
+
+
+@contextmanager
+def applied(settings: SkinSettings, values: dict[str, Any]) -> Iterator[None]:
+    """Context manager that sets properties by name, and sets all of them back if anything in it fails.
+
+    Raises ValueError naming the setting and the allowed values.
+    """
+    before = {name: _value(settings, name) for name in SETTING_NAMES}
+    try:
+        # The preset first: other settings modify it.
+        for name, value in sorted(values.items(), key=lambda item: item[0] != "preset"):
+            _apply(settings, name, value)
+        yield
+    except BaseException:
+        # The preset last: moving a slider changes it.
+        for name in sorted(SETTING_NAMES, key=lambda name: name == "preset"):
+            if _value(settings, name) != before[name]:
+                setattr(settings, name, before[name])
+        raise
+
+
+def _value(settings: SkinSettings, name: str) -> Any:  # noqa: ANN401
+    value = getattr(settings, name)
+    return tuple(value) if isinstance(value, bpy.types.bpy_prop_array) else value
+
+
+def _apply(settings: SkinSettings, name: str, value: Any) -> None:  # noqa: ANN401
+    if name not in SETTING_NAMES:
+        raise ValueError(f"make_skin has no setting '{name}'; it has: {', '.join(SETTING_NAMES)}")
+    rna = settings.bl_rna.properties[name]
+    upper = rna.type == "ENUM" and isinstance(value, str)
+    try:
+        if rna.type in ("INT", "FLOAT"):
+            _check_range(rna, value)
+        setattr(settings, name, value.upper() if upper else value)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"make_skin: {name} = {value!r} is not allowed: {error}") from error
+
+
+def _check_range(rna: bpy.types.Property, value: Any) -> None:  # noqa: ANN401
+    """Blender clamps numbers without a word and accepts what is not finite."""
+    for number in np.ravel(np.asarray(value, np.float64)):
+        if not rna.hard_min <= number <= rna.hard_max:
+            raise ValueError(f"it has to be from {rna.hard_min:g} to {rna.hard_max:g}")
 
 
 @lru_cache(maxsize=4096)
@@ -338,7 +386,7 @@ def register() -> None:
     """Adds the properties to Blender's types."""
     bpy.utils.register_class(SkinSettings)
     bpy.utils.register_class(LutImages)
-    bpy.types.Object.skinglow = PointerProperty(type=SkinSettings, name="Skin Glow")
+    bpy.types.Object.skinglow = PointerProperty(type=SkinSettings, name="Skin Glow", override=OVERRIDE)
     bpy.types.Image.skinglow = PointerProperty(type=LutImages, name="Skin Glow Images")
 
 

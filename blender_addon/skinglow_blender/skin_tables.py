@@ -107,7 +107,7 @@ class _PreparedLights:
         if self.shared is not None:
             return self.shared
         return SkinLights.from_lights(
-            [light.seen_by(skin.key) for light in lights if not light.unlit_reason and light.lights(skin.name)]
+            [light.seen_by(skin.key) for light in lights if not light.unlit_reason and light.lights(skin.key)]
         )
 
     def core_lights_of(self, skin: Skin, lights: list[SceneLight]) -> list[Any]:

@@ -3,7 +3,8 @@
 
 import bpy
 
-from .scene_reading import Skin, scale_since_measured
+from .measured_size import scale_since_measured
+from .scene_reading import Skin
 
 
 def texels_per_mm(obj: bpy.types.Object, skin: Skin, texel_mapping: tuple[float, float]) -> float:

@@ -1,72 +1,44 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The thickness of a mesh at each vertex, mm, stored as the attribute that the node group reads."""
 
-import hashlib
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
 
 import bpy
 import numpy as np
 
 from .errors import SkinError, core
-from .scene_reading import MEASURED_CONE, MEASURED_SIZE, MEASURED_UNIT, MM_PER_METER
-from .skin_group import THICKNESS_ATTRIBUTE
-from .skin_settings import as_typed
+from .measured_geometry import Geometry, mesh_digest, read_geometry
+from .measured_size import MEASURED_CONE, MEASURED_SAMPLES, MEASURED_SIZE, MEASURED_UNIT, mesh_scale, samples_of
+from .skin_group import KNOWN_ATTRIBUTE, MIN_KNOWN, THICKNESS_ATTRIBUTE
 
 #: Mesh property: digest of the measured geometry, or GIVEN for custom thicknesses.
 MEASURED_GEOMETRY = "skinglow_measured"
 GIVEN = "given"
+#: Mesh property: digest of the mesh itself and the kinds of its modifiers when it was measured.
+MEASURED_MESH = "skinglow_measured_mesh"
 #: Mesh property: fraction of the vertices at which no far side was found.
 NO_FAR_SIDE = "skinglow_no_far_side"
 
 
-def unit_mm(obj: bpy.types.Object, scene: bpy.types.Scene) -> float:
-    """Millimeters per scene unit: the skin's own setting, or the scene's unit scale."""
-    own = as_typed(obj.skinglow.unit_mm)
-    return own if own > 0.0 else MM_PER_METER * scene.unit_settings.scale_length
-
-
-class Geometry(NamedTuple):
-    """The input of a thickness measurement."""
-
-    vertices: np.ndarray  #: (n, 3) float64, world, scene units
-    triangles: np.ndarray  #: (m, 3) int32, counter-clockwise seen from outside
-    unit_mm: float
-    rays: int
-    min_sky_visibility: float  #: min fraction of the sky visible from a far side that lets light in
-
-    def digest(self) -> str:
-        """A digest of everything the thickness depends on."""
-        state = hashlib.sha256(self.vertices.tobytes())
-        state.update(self.triangles.tobytes())
-        state.update(f"{self.unit_mm} {self.rays} {self.min_sky_visibility}".encode())
-        return state.hexdigest()
-
-
-def read_geometry(obj: bpy.types.Object, scene: bpy.types.Scene) -> Geometry:
-    """The mesh in world orientation and scale, without modifiers: the attribute is stored on its own vertices."""
-    check_mesh(obj)
-    mesh = obj.data
-    vertices = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.vertices.foreach_get("co", vertices)
-    mesh.calc_loop_triangles()
-    triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
-    mesh.loop_triangles.foreach_get("vertices", triangles)
-    triangles = triangles.reshape(-1, 3)
-    # Without the translation, which does not matter and would cost precision.
-    world = vertices.reshape(-1, 3) @ np.array(obj.matrix_world, np.float64)[:3, :3].T
-    if obj.matrix_world.determinant() < 0.0:
-        triangles = triangles[:, ::-1]  # mirroring reverses the winding order
-    return Geometry(
-        world, np.ascontiguousarray(triangles), unit_mm(obj, scene), obj.skinglow.rays, obj.skinglow.min_openness
-    )
-
-
 def is_measured(obj: bpy.types.Object, geometry: Geometry) -> bool:
     """Whether the stored thickness was measured on exactly this geometry, or is custom."""
-    if THICKNESS_ATTRIBUTE not in obj.data.attributes:
+    if any(name not in obj.data.attributes for name in (THICKNESS_ATTRIBUTE, KNOWN_ATTRIBUTE)):
         return False
     return obj.data.get(MEASURED_GEOMETRY) in (GIVEN, geometry.digest())
+
+
+def is_from_measurement(mesh: bpy.types.Mesh) -> bool:
+    """Whether the stored thickness was measured, rather than given."""
+    return mesh.get(MEASURED_GEOMETRY, GIVEN) != GIVEN
+
+
+def is_of_this_mesh(obj: bpy.types.Object) -> bool:
+    """Whether mesh and modifiers are those that were measured, but for a scale of the whole.
+
+    Pose, shape keys and the settings of modifiers are not looked at: animation changes them.
+    """
+    stored = obj.data.get(MEASURED_MESH)
+    return stored is None or stored == mesh_digest(obj) or (mesh_scale(obj.data) or 1.0) != 1.0
 
 
 def ensure_measured(
@@ -74,11 +46,15 @@ def ensure_measured(
 ) -> bool:
     """Measures and stores a mesh's thickness unless that was done for this geometry; returns whether it measured.
 
-    Custom thicknesses are kept until they are measured explicitly (Measure Thickness).
+    Custom thicknesses are kept until they are measured explicitly (Measure Thickness), and those of a linked mesh
+    always: they were measured in its own file.
     """
+    if obj.data.library is not None and THICKNESS_ATTRIBUTE in obj.data.attributes:
+        return False
     geometry = read_geometry(obj, scene)
     if is_measured(obj, geometry):
         return False
+    check_local(obj)
     store_measured(obj, scene, geometry, *measure(geometry, progress))
     return True
 
@@ -96,6 +72,7 @@ def store_measured(
         raise SkinError(f"'{obj.name}' was changed while its thickness was measured: measure again")
     store(obj, thickness_mm, geometry.unit_mm)
     obj.data[MEASURED_GEOMETRY] = digest
+    obj.data[MEASURED_MESH] = mesh_digest(obj)
     obj.data[NO_FAR_SIDE] = float(np.mean(no_far_side)) if len(no_far_side) else 0.0
 
 
@@ -109,7 +86,7 @@ def no_far_side_text(mesh: bpy.types.Mesh) -> str:
 
 
 def measure(geometry: Geometry, progress: Callable[[float], bool] | None = None) -> tuple[np.ndarray, np.ndarray]:
-    """Thickness at each vertex, (n,) mm, and where no far side was found, (n,) bool.
+    """Thickness at each of the mesh's own vertices, (v,) mm, and where no far side was found, (v,) bool.
 
     `progress` is called with the completed fraction, returns False to stop.
     """
@@ -119,7 +96,7 @@ def measure(geometry: Geometry, progress: Callable[[float], bool] | None = None)
             "This build of the core was made without Embree and measures no thickness: pass thicknesses as "
             "make_skin(obj, thickness=[mm, ...])"
         )
-    return sg.thickness_report(
+    thickness, no_far_side = sg.thickness_report(
         geometry.vertices,
         geometry.triangles,
         unit_mm=geometry.unit_mm,
@@ -127,23 +104,23 @@ def measure(geometry: Geometry, progress: Callable[[float], bool] | None = None)
         min_sky_visibility=geometry.min_sky_visibility,
         progress=progress,
     )
+    if geometry.shown_as is None:
+        return thickness, no_far_side
+    return thickness[geometry.shown_as], no_far_side[geometry.shown_as]
 
 
-def check_mesh(obj: bpy.types.Object) -> None:
-    """Raises SkinError for an object that cannot be a skin."""
-    if obj is None or obj.type != "MESH":
-        raise SkinError(f"'{getattr(obj, 'name', obj)}' is not a mesh: select the mesh to make glow")
-    if not obj.data.polygons:
-        raise SkinError(f"'{obj.name}' has no faces, so no light can pass through it")
-    if obj.mode == "EDIT":
-        raise SkinError(f"'{obj.name}' is in Edit Mode: leave it (Tab) first")
-    scales = [column.to_3d().length for column in obj.matrix_world.col[:3]]
-    if min(scales) == 0.0 or obj.matrix_world.to_3x3().determinant() == 0.0:
-        raise SkinError(f"'{obj.name}' has scale 0 along an axis, so it has no thickness: change its scale")
+def check_local(obj: bpy.types.Object) -> None:
+    """Raises SkinError if the object's mesh is linked from a library: what is stored in it is lost with the session."""
+    if obj.data.library is not None:
+        raise SkinError(
+            f"The mesh of '{obj.name}' belongs to {obj.data.library.filepath} and cannot keep a thickness: make the "
+            "skin in that file, or make object and data local first (Object > Relations > Make Local)"
+        )
 
 
 def store(obj: bpy.types.Object, thickness_mm: Sequence[float], unit_mm: float) -> None:
     """Stores thicknesses, one per vertex in mm, and the related mesh properties; unit_mm: mm per scene unit."""
+    check_local(obj)
     mesh = obj.data
     values = np.ascontiguousarray(thickness_mm, np.float32)
     if values.shape != (len(mesh.vertices),):
@@ -152,16 +129,13 @@ def store(obj: bpy.types.Object, thickness_mm: Sequence[float], unit_mm: float) 
         )
     if not np.isfinite(values).all() or (values < 0.0).any():
         raise SkinError(f"'{obj.name}': a thickness is negative or not finite; allowed: 0 mm or more")
-    attribute = mesh.attributes.get(THICKNESS_ATTRIBUTE)
-    if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", "FLOAT"):
-        mesh.attributes.remove(attribute)
-        attribute = None
-    if attribute is None:
-        attribute = mesh.attributes.new(THICKNESS_ATTRIBUTE, "FLOAT", "POINT")
-    attribute.data.foreach_set("value", values)
+    _write(mesh, THICKNESS_ATTRIBUTE, values)
+    _write(mesh, KNOWN_ATTRIBUTE, np.ones_like(values))
     mesh[MEASURED_GEOMETRY] = GIVEN
     mesh.pop(NO_FAR_SIDE, None)
+    mesh.pop(MEASURED_MESH, None)
     mesh[MEASURED_SIZE] = abs(obj.matrix_world.to_3x3().determinant()) ** (1.0 / 3.0)
+    mesh[MEASURED_SAMPLES] = samples_of(mesh)
     mesh[MEASURED_UNIT] = unit_mm
     normals = np.empty(3 * len(mesh.vertices), np.float32)
     mesh.vertices.foreach_get("normal", normals)
@@ -170,10 +144,46 @@ def store(obj: bpy.types.Object, thickness_mm: Sequence[float], unit_mm: float) 
     mesh.update()
 
 
-def remove(mesh: bpy.types.Mesh) -> None:
-    """Removes the attribute and the related mesh properties."""
-    attribute = mesh.attributes.get(THICKNESS_ATTRIBUTE)
-    if attribute is not None:
+def _write(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
+    attribute = mesh.attributes.get(name)
+    if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", "FLOAT"):
         mesh.attributes.remove(attribute)
-    for name in (MEASURED_SIZE, MEASURED_UNIT, MEASURED_CONE, MEASURED_GEOMETRY, NO_FAR_SIDE):
+        attribute = None
+    if attribute is None:
+        attribute = mesh.attributes.new(name, "FLOAT", "POINT")
+    attribute.data.foreach_set("value", values)
+
+
+def read(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Thickness at each vertex, (n,) float32, mm, and where it is known, (n,) bool; the mesh may be evaluated."""
+    count = len(mesh.vertices)
+    stored, known = np.zeros(count, np.float32), np.zeros(count, np.float32)
+    for name, values in ((THICKNESS_ATTRIBUTE, stored), (KNOWN_ATTRIBUTE, known)):
+        attribute = mesh.attributes.get(name)
+        if attribute is not None and (attribute.domain, len(attribute.data)) == ("POINT", count):
+            attribute.data.foreach_get("value", values)
+    return stored / np.maximum(known, np.float32(MIN_KNOWN)), known > MIN_KNOWN
+
+
+def mark_known(mesh: bpy.types.Mesh) -> None:
+    """Brings a mesh up to date whose thickness was stored before it was marked as known."""
+    if mesh.library is None and THICKNESS_ATTRIBUTE in mesh.attributes and KNOWN_ATTRIBUTE not in mesh.attributes:
+        _write(mesh, KNOWN_ATTRIBUTE, np.ones(len(mesh.vertices), np.float32))
+
+
+def remove(mesh: bpy.types.Mesh) -> None:
+    """Removes the attributes and the related mesh properties."""
+    for name in (THICKNESS_ATTRIBUTE, KNOWN_ATTRIBUTE):
+        attribute = mesh.attributes.get(name)
+        if attribute is not None:
+            mesh.attributes.remove(attribute)
+    for name in (
+        MEASURED_SIZE,
+        MEASURED_SAMPLES,
+        MEASURED_UNIT,
+        MEASURED_CONE,
+        MEASURED_GEOMETRY,
+        MEASURED_MESH,
+        NO_FAR_SIDE,
+    ):
         mesh.pop(name, None)

@@ -27,9 +27,9 @@ class WorldLight(NamedTuple):
     note: str
 
 
-def read_world_nodes(tree: bpy.types.NodeTree) -> WorldLight:
-    """Reads the backgrounds that contribute to a world's active output."""
-    output = tree.get_output_node("ALL")
+def read_world_nodes(tree: bpy.types.NodeTree, target: str) -> WorldLight:
+    """Reads the backgrounds that contribute to a world's active output for `target` (blender_version.output_target)."""
+    output = tree.get_output_node(target)
     source = linked_node(output.inputs["Surface"]) if output is not None else None
     if source is None:
         return WorldLight((), "its nodes have no shader linked to the output")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Digests of the inputs of a picture, by which a batch detects that it is up to date."""
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,7 @@ NOT_IN_PICTURES = frozenset(
 def scene_inputs(scene: bpy.types.Scene) -> dict[str, str]:
     """Digests of the inputs of all pictures of a scene, which has to be at a fixed frame.
 
-    files     the blend file as saved, its libraries and the images it reads
+    files     the blend file as saved, its libraries and every file that it reads
     render    settings of rendering, color management and output, and the camera
     skins     the settings of every skin
     programs  versions, as text
@@ -52,7 +53,7 @@ def rig_inputs(scene: bpy.types.Scene, ready: ReadyRig, onto: tuple[float, float
     """Digests of the additional inputs of one rig: its lights, its file and the target point."""
     lights = [
         [
-            read_light(obj, obj.matrix_world, obj.name).signature,
+            read_light(obj, obj.matrix_world, obj.name, blender_version.output_target(scene)).signature,
             obj.visible_diffuse,
             _animation(obj),
             _animation(obj.data),
@@ -71,14 +72,39 @@ def skin_values(obj: bpy.types.Object) -> dict[str, Any]:
 
 
 def _files() -> list[tuple[str, str]]:
-    """Name and digest of the blend file, its libraries and images; missing files are skipped."""
+    """Name and digest of the blend file and of all files that it reads: libraries, images with their tiles and frames,
+    caches, volumes, fonts. Missing files are skipped.
+    """
     paths = {bpy.data.filepath} if bpy.data.filepath else set()
-    paths |= {bpy.path.abspath(library.filepath) for library in bpy.data.libraries}
-    for image in bpy.data.images:
-        if image.source == "FILE" and image.filepath and image.packed_file is None:
-            paths.add(bpy.path.abspath(image.filepath, library=image.library))
+    paths.update(bpy.utils.blend_paths(absolute=True, packed=False, local=False))
+    for owner in (*bpy.data.images, *bpy.data.movieclips, *bpy.data.volumes, *bpy.data.cache_files):
+        if is_sequence(owner):
+            paths.update(_numbered(bpy.path.abspath(owner.filepath, library=owner.library)))
+    paths = {each for path in paths for each in (_tiles(path) if "<" in path else [path])}
     # Names only: the machines of a farm may see a folder under different paths.
     return sorted((path.name, _digest_if_readable(path)) for path in map(Path, paths) if path.is_file())
+
+
+def is_sequence(owner: bpy.types.ID) -> bool:
+    """Whether an image, movie clip, volume or cache reads one file per frame."""
+    return getattr(owner, "source", "") == "SEQUENCE" or getattr(owner, "is_sequence", False)
+
+
+def _numbered(path: str) -> list[str]:
+    """The files whose names differ from that one in its last number alone."""
+    folder, name = Path(path).parent, Path(path).name
+    found = re.search(r"\d+(?=\D*$)", name)
+    if found is None:
+        return [path]
+    pattern = re.compile(re.escape(name[: found.start()]) + r"\d+" + re.escape(name[found.end() :]))
+    return [str(each) for each in folder.glob("*") if pattern.fullmatch(each.name)]
+
+
+def _tiles(path: str) -> list[str]:
+    """The files of a tiled image, whose name has a token in place of the tile's number."""
+    folder, name = Path(path).parent, Path(path).name
+    pattern = re.compile(re.escape(name).replace("<UDIM>", r"\d{4}").replace("<UVTILE>", r"u\d+_v\d+"))
+    return [str(each) for each in folder.glob("*") if pattern.fullmatch(each.name)]
 
 
 def _digest_if_readable(path: Path) -> str:

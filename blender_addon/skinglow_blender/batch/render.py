@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import bpy
 
 from ..errors import SkinError
+from ..health import require_health
 from ..live_update import update_scene
 from ..scene_reading import read_skin
 from ..skin import skin_settings_of
@@ -72,14 +73,15 @@ def render_batch(
     onto      a skin to whose reference point a rig file's point is moved; None: lights are placed as in the file
     worker    name of a farm worker, which then writes its own manifest
     progress  called with a BatchStep; an exception in it ends the batch, and finished pictures are kept
-    Lights, rig files, frames, folder and names are checked before anything is rendered (SkinError). A picture that
-    fails does not stop the others. The scene is restored when this returns or raises.
+    Lights, rig files, frames, folder, names and the health of the skins are checked before anything is rendered
+    (SkinError). A picture that fails does not stop the others. The scene is restored when this returns or raises.
     """
     scene = scene or bpy.context.scene
     if frames is None:
         frames = range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
     frame_list = parse_frames(frames)
     _check_scene(scene)
+    require_health(scene)
     ready = [make_ready(scene, rig) for rig in as_rigs(rigs)]
     pictures = plan_pictures(scene, [r.rig.name for r in ready], frame_list, pattern)
     where = Path(bpy.path.abspath(str(folder))).absolute()

@@ -198,12 +198,11 @@ def _set(undo: ExitStack, owner: bpy.types.Object | bpy.types.Collection, hiding
 
 
 def check_lights(ready: ReadyRig, scene: bpy.types.Scene, lit: set[str]) -> None:
-    """Raises SkinError if the lights of a picture (`lit`, by SceneLight.name) are not those of the rig."""
+    """Raises SkinError if the lights of a picture (`lit`, by SceneLight.object_name) are not those of the rig."""
     if ready.shown is None:
         return
-    instanced = {name.split(" in ")[0] for name in lit}
     for obj in light_objects(scene):
-        here = obj.name in lit or obj.name in instanced
+        here = obj.name in lit
         if here and obj.name not in ready.shown and obj.name not in _added_names(scene):
             raise SkinError(f"light '{obj.name}' is not part of the rig and could not be hidden in the render")
         if not here and obj.name in ready.shown and not blender_version.animation_curves(obj, "hide_render"):

@@ -22,7 +22,7 @@ class Shown:
 
     def __init__(self) -> None:
         self.skins: list[dict[str, Any]] = []  #: for the manifest, one per skin and view layer
-        self.lights: set[str] = set()  #: names of the lights in the render
+        self.lights: set[str] = set()  #: names of the light objects in the render, instances included
         self.faults: list[str] = []
 
 
@@ -59,7 +59,7 @@ def watching(scene: bpy.types.Scene) -> Iterator[Shown]:
 def _record(shown: Shown, depsgraph: bpy.types.Depsgraph) -> None:
     reading = read_scene(depsgraph)
     shown.faults += STATE.faults.values()
-    shown.lights.update(light.name for light in reading.lights)
+    shown.lights.update(light.object_name for light in reading.lights)
     for obj, _skin in reading.skins:
         shown.skins.append(_skin_entry(obj, depsgraph))
 

@@ -5,7 +5,7 @@ import time
 import bpy
 import numpy as np
 import skinglow_blender as sb
-from skinglow_blender import measuring_operators, thickness_attribute
+from skinglow_blender import measured_geometry, measuring_operators, thickness_attribute
 from skinglow_blender.measuring import Measuring
 
 from inside.scenes import add_light, assert_fresh, depsgraph
@@ -218,7 +218,7 @@ def fine_ball():
 
 
 def check_a_cancelled_measuring_stops_soon(_work):
-    geometry = thickness_attribute.read_geometry(fine_ball(), bpy.context.scene)
+    geometry = measured_geometry.read_geometry(fine_ball(), bpy.context.scene)
     measuring = Measuring({"Ball": geometry})
     end = time.monotonic() + 60.0
     while not measuring.done and time.monotonic() < end:
@@ -238,7 +238,7 @@ def check_a_cancelled_measuring_stops_soon(_work):
 def check_a_mesh_edited_while_measured_keeps_what_it_had(_work):
     obj = skin_ball()
     before = thickness_of(obj)
-    geometry = thickness_attribute.read_geometry(obj, bpy.context.scene)
+    geometry = measured_geometry.read_geometry(obj, bpy.context.scene)
     values, _no_far_side = Measuring({obj.name: geometry}).wait()[obj.name]
     obj.data.vertices[0].co.z += 1.0
     try:
@@ -251,7 +251,7 @@ def check_a_mesh_edited_while_measured_keeps_what_it_had(_work):
 
 
 def check_removing_the_add_on_stops_measuring(_work):
-    geometry = thickness_attribute.read_geometry(fine_ball(), bpy.context.scene)
+    geometry = measured_geometry.read_geometry(fine_ball(), bpy.context.scene)
     measuring_operators._MeasuringOperator.current = measuring = Measuring({"Ball": geometry})
     refused("Thickness is being measured", bpy.ops.skinglow.make)
     sb.unregister()

@@ -1,0 +1,87 @@
+"""Things of one name, or whose names look like others': each keeps what is its own."""
+
+import bpy
+import numpy as np
+import skinglow_blender as sb
+from skinglow_blender.batch import rigs
+
+from inside.scenes import add_light, camera_above, depsgraph, link, patch, render_settings
+
+THIN = [0.0, 1.0, 2.0, 3.0]
+
+
+def linked_copy(work, name):
+    """A skin of that name from a library, half as large."""
+    obj = patch(name, 1.0)
+    add_light("Other lamp")
+    sb.make_skin(obj, thickness=THIN, mode="physical")
+    bpy.ops.wm.save_as_mainfile(filepath=str(work / "library.blend"))
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(str(work / "library.blend"), link=True) as (_source, target):
+        target.objects = [name]
+    return link(target.objects[0])
+
+
+def check_export_of_two_skins_of_one_name(work):
+    linked = linked_copy(work, "Head")
+    add_light()
+    local = patch("Head")
+    sb.make_skin(local, thickness=THIN, mode="physical")
+    third = patch("head", 4.0)
+    sb.make_skin(third, thickness=THIN, mode="physical")
+    camera_above()
+    assert linked.name == local.name == "Head"
+    files = sb.export_povray(depsgraph(), work / "povray")
+    assert len(set(files)) == len(files)
+    folders = {path.parent for path in files}
+    assert len({folder.name.casefold() for folder in folders}) == 3
+    meshes = {(folder / "mesh.inc").read_text() for folder in folders}
+    assert len(meshes) == 3
+
+
+def check_light_linking_by_object(work):
+    """A light linked to the local of two objects of one name lights that one."""
+    if bpy.app.version < (4, 0, 0):
+        return
+    linked = linked_copy(work, "Head")
+    local = patch("Head")
+    light = add_light()
+    sb.make_skin(local, thickness=THIN, mode="physical")
+    receivers = bpy.data.collections.new("Receivers")
+    receivers.objects.link(local)
+    light.light_linking.receiver_collection = receivers
+    graph = depsgraph()
+    sb.update(graph)
+    assert sb.lut(local, graph).max() > 0.0
+    assert sb.lut(linked, graph).max() == 0.0
+    assert sb.light_report(linked, graph)[0]["reason"] == "light linking excludes this object"
+
+
+def check_rig_named_like_an_instance(work):
+    """A light whose name contains " in ", next to one that is the first part of it."""
+    obj = patch()
+    for name in ("Sun", "Sun in Fog"):
+        add_light(name)
+    sb.make_skin(obj, thickness=THIN, mode="physical")
+    camera_above()
+    render_settings()
+    done = sb.render_batch(work / "batch", frames=[1], rigs=["Sun in Fog", "Sun"])
+    assert len(done.rendered) == 2 and not done.failed, done
+
+
+def check_instance_of_a_light_in_a_rig(_work):
+    """A light that only its instances show counts as shown, whatever its instancer is called."""
+    obj = patch()
+    inside = bpy.data.collections.new("Inside")
+    light = add_light("Key in Box", collection=inside)
+    instancer = link(bpy.data.objects.new("Far in Room", None))
+    instancer.instance_type, instancer.instance_collection = "COLLECTION", inside
+    sb.make_skin(obj, thickness=THIN, mode="physical")
+    scene = bpy.context.scene
+    ready = rigs.make_ready(scene, rigs.Rig("key", ("Key in Box",)))
+    rigs.check_lights(ready, scene, {light.name})
+    report = sb.light_report(obj, depsgraph())
+    assert [row["name"] for row in report if np.any(row["weight"])] == ["Key in Box in Far in Room"]
+    bpy.context.view_layer.objects.active = obj
+    assert bpy.ops.skinglow.select_light(light="Key in Box in Far in Room") == {"FINISHED"}
+    assert instancer.select_get()

@@ -1,0 +1,156 @@
+"""Thickness is that of the mesh as it is shown, and grows with it: modifiers, shape keys, pose, applied scales."""
+
+import bpy
+import numpy as np
+import skinglow_blender as sb
+from mathutils import Matrix
+from skinglow_blender import measured_geometry, thickness_attribute
+from skinglow_blender.scene_reading import ROW_PROPERTY
+
+from inside.scenes import depsgraph, link
+
+SIDE, STEPS = 0.04, 8
+
+
+def plate(bottom=-0.001, top=0.001, closed=True):
+    """A plate of SIDE meters, in STEPS squares a side, from one height to the other; open: its upper side alone."""
+    ticks = np.linspace(-SIDE / 2, SIDE / 2, STEPS + 1)
+    heights = (bottom, top) if closed else (top,)
+    vertices = [(x, y, z) for z in heights for y in ticks for x in ticks]
+    n, faces = STEPS + 1, []
+    for layer in range(len(heights)):
+        for j in range(STEPS):
+            for i in range(STEPS):
+                a = layer * n * n + j * n + i
+                face = (a, a + 1, a + n + 1, a + n)
+                faces.append(face if layer == len(heights) - 1 else face[::-1])
+    if closed:
+        rim = [*range(STEPS), *range(STEPS, n * n - 1, n), *range(n * n - 1, n * n - n, -1), *range(n * n - n, 0, -n)]
+        for a, b in zip(rim, rim[1:] + rim[:1], strict=True):
+            faces.append((a, b, b + n * n, a + n * n))
+    mesh = bpy.data.meshes.new("Plate")
+    mesh.from_pydata(vertices, [], faces)
+    return link(bpy.data.objects.new("Plate", mesh))
+
+
+def middle(obj):
+    """The vertices of the upper side away from its rim."""
+    positions = np.array([v.co for v in obj.data.vertices])
+    return (np.abs(positions[:, :2]).max(axis=1) < SIDE / 4) & (positions[:, 2] > 0.0)
+
+
+def measured(obj):
+    """Median thickness in the middle of the upper side, mm."""
+    sb.make_skin(obj)
+    values, known = thickness_attribute.read(obj.data)
+    assert known.all() and len(values) == len(obj.data.vertices)
+    return float(np.median(values[middle(obj)]))
+
+
+def check_without_modifiers(_work):
+    assert abs(measured(plate()) - 2.0) < 1e-4
+
+
+def check_modifiers_that_add_vertices(_work):
+    half = plate(closed=False)
+    mirror = half.modifiers.new("Mirror", "MIRROR")
+    mirror.use_axis = (False, False, True)
+    mirror.use_mirror_merge = False
+    assert abs(measured(half) - 2.0) < 1e-3
+    sheet = plate(closed=False)
+    sheet.modifiers.new("Solidify", "SOLIDIFY").thickness = 0.002
+    assert abs(measured(sheet) - 2.0) < 1e-3
+    smooth = plate()
+    smooth.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    assert abs(measured(smooth) - 2.0) < 0.02
+    row = plate()
+    row.modifiers.new("Array", "ARRAY").count = 3
+    assert abs(measured(row) - 2.0) < 1e-3
+
+
+def check_modifiers_keep_the_order_that_is_relied_on(_work):
+    """Each own vertex is near the one that it is taken to be shown as."""
+    for kind, settings in (
+        ("MIRROR", {"use_axis": (True, False, True)}),
+        ("SOLIDIFY", {"thickness": 1e-4}),
+        ("SOLIDIFY", {"thickness": 1e-4, "solidify_mode": "NON_MANIFOLD"}),
+        ("SUBSURF", {"levels": 2}),
+        ("ARRAY", {"count": 2}),
+        ("MIRROR", {"use_bisect_axis": (True, False, False)}),
+        ("DECIMATE", {"ratio": 0.6}),
+        ("BEVEL", {"width": 1e-4}),
+        ("TRIANGULATE", {}),
+        ("EDGE_SPLIT", {}),
+    ):
+        obj = plate()
+        modifier = obj.modifiers.new("Tested", kind)
+        for name, value in settings.items():
+            setattr(modifier, name, value)
+        depsgraph()
+        geometry = measured_geometry.read_geometry(obj, bpy.context.scene)
+        own = np.array([v.co for v in obj.data.vertices])
+        shown = geometry.vertices if geometry.shown_as is None else geometry.vertices[geometry.shown_as]
+        near = np.linalg.norm(shown - own, axis=1)
+        # Decimation leaves neighbors, bisecting half of the mesh.
+        step = SIDE / STEPS
+        limit = SIDE if "use_bisect_axis" in settings else 1.5 * step if kind == "DECIMATE" else 0.4 * step
+        assert near.max() < limit and np.median(near) < step, (kind, settings, near.max())
+
+
+def check_shape_keys_and_pose(_work):
+    obj = plate()
+    obj.shape_key_add(name="Basis")
+    thick = obj.shape_key_add(name="Thick")
+    for point in thick.data:
+        point.co.z *= 2.0
+    thick.value = 0.0
+    depsgraph()
+    assert abs(measured(obj) - 2.0) < 1e-3
+    thick.value = 1.0
+    depsgraph()
+    assert abs(measured(obj) - 4.0) < 1e-3
+    bent = plate()
+    cast = bent.modifiers.new("Scaled", "SIMPLE_DEFORM")
+    cast.deform_method, cast.factor = "STRETCH", 0.0
+    assert abs(measured(bent) - 2.0) < 1e-3
+
+
+def shown_thickness(obj):
+    """Median thickness in the middle as the material reads it, mm."""
+    depsgraph()
+    values, _known = thickness_attribute.read(obj.data)
+    texels_per_mm = obj[ROW_PROPERTY][0]
+    return float(np.median(values[middle(obj)])) * texels_per_mm / (255.0 / 12.0)
+
+
+def check_applied_scale(_work):
+    """The object's scale, applied; the mesh scaled in Edit Mode; rotated; then measured again: the same thickness."""
+    obj = plate()
+    obj.scale = (2.0, 2.0, 2.0)
+    depsgraph()
+    assert abs(measured(obj) - 4.0) < 1e-3 and abs(shown_thickness(obj) - 4.0) < 1e-3
+    bpy.context.view_layer.objects.active = obj
+    obj.select_set(True)
+    bpy.ops.object.transform_apply(scale=True)
+    assert abs(shown_thickness(obj) - 4.0) < 1e-3
+    obj.rotation_euler = (0.3, 0.2, 0.1)
+    bpy.ops.object.transform_apply(rotation=True)
+    assert abs(shown_thickness(obj) - 4.0) < 1e-3
+    obj.data.transform(Matrix.Scale(0.5, 4))
+    obj.data.update()
+    assert abs(shown_thickness(obj) - 2.0) < 1e-3
+    obj.scale = (3.0, 3.0, 3.0)
+    assert abs(shown_thickness(obj) - 6.0) < 1e-3
+    before = obj.data["skinglow_measured"]
+    sb.make_skin(obj)
+    assert obj.data["skinglow_measured"] != before and abs(shown_thickness(obj) - 6.0) < 1e-3
+
+
+def check_other_edits_scale_nothing(_work):
+    obj = plate()
+    measured(obj)
+    before = shown_thickness(obj)
+    for vertex in obj.data.vertices:
+        vertex.co.x *= 1.5
+    obj.data.update()
+    assert shown_thickness(obj) == before
