@@ -18,6 +18,7 @@ from . import (
     light_listing,
     lut_preview,
     measuring_operators,
+    menus,
     operators,
     panel,
     povray_export,
@@ -74,6 +75,7 @@ _PARTS = (
     operators,
     measuring_operators,
     panel,
+    menus,
     handlers,
     batch,
 )

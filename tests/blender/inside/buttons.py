@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import skinglow_blender as sb
-from skinglow_blender import live_update
+from skinglow_blender import live_update, menus
 
 from inside.scenes import add_light, assert_fresh, camera_above, depsgraph, patch
 
@@ -108,3 +108,20 @@ def check_nothing_is_tagged_when_lights_stay(_work):
     finally:
         bpy.app.handlers.depsgraph_update_post.pop()
     assert len(reports) == 1 and "Other" in reports[0], reports
+
+
+def check_entries_in_blenders_menus(_work):
+    """There while the add-on is on, gone when it is off, each once."""
+
+    def ours():
+        draws = [draw for name, _ in menus.ENTRIES for draw in getattr(bpy.types, name)._dyn_ui_initialize()]
+        return [draw for draw in draws if draw.__module__ == menus.__name__]
+
+    sb.register()
+    assert len(ours()) == len(menus.ENTRIES)
+    sb.unregister()
+    try:
+        assert not ours() and not hasattr(bpy.types, menus.SKINGLOW_MT_object.bl_idname)
+    finally:
+        sb.register()
+    assert len(ours()) == len(menus.ENTRIES)

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Entries in Blender's own menus: Object, its context menu, and File > Export."""
+
+import bpy
+
+from .operators import selected_skins
+
+
+class SKINGLOW_MT_object(bpy.types.Menu):  # noqa: N801  Blender's naming
+    """What can be done with the selected objects."""
+
+    bl_idname = "SKINGLOW_MT_object"
+    bl_label = "Skinglow"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        # Otherwise the buttons would run in the background without a progress in the status bar.
+        layout.operator_context = "INVOKE_DEFAULT"
+        layout.operator("skinglow.make", icon="LIGHT_SUN")
+        if selected_skins(context):
+            layout.operator("skinglow.bake")
+            layout.operator("skinglow.repair")
+            layout.separator()
+            layout.operator("skinglow.reset")
+            layout.operator("skinglow.remove")
+
+
+def _in_object_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    if context.mode == "OBJECT":
+        self.layout.separator()
+        self.layout.menu(SKINGLOW_MT_object.bl_idname)
+
+
+def _in_export_menu(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    self.layout.operator("skinglow.export_povray", text="Skin Glow for POV-Ray (.pov)")
+
+
+#: Blender's menus and what is added to each.
+ENTRIES = (
+    ("VIEW3D_MT_object", _in_object_menu),
+    ("VIEW3D_MT_object_context_menu", _in_object_menu),
+    ("TOPBAR_MT_file_export", _in_export_menu),
+)
+
+
+def register() -> None:
+    """Adds the entries."""
+    bpy.utils.register_class(SKINGLOW_MT_object)
+    for name, draw in ENTRIES:
+        getattr(bpy.types, name).append(draw)
+
+
+def unregister() -> None:
+    """Removes the entries."""
+    for name, draw in ENTRIES:
+        getattr(bpy.types, name).remove(draw)
+    bpy.utils.unregister_class(SKINGLOW_MT_object)
