@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <vector>
@@ -96,7 +97,7 @@ std::optional<std::uint32_t> RayScene::exit_triangle(std::uint32_t welded, const
     float first_entry = unlimited;
     float limit = unlimited;  // what is nearer has been seen
     bool hopeful = true;
-    const HitVisitor visitor = [&](float distance, std::uint32_t triangle) {
+    const auto visitor = [&](float distance, std::uint32_t triangle) {
         // A ray meets the triangles of the vertex it starts from nowhere else: such a hit is a rounding
         // error.
         if (std::binary_search(own.begin(), own.end(), triangle)) return unlimited;
@@ -112,11 +113,11 @@ std::optional<std::uint32_t> RayScene::exit_triangle(std::uint32_t welded, const
     };
     // Mostly the first surface is the way out. Where the ray enters another body before, one look to its end
     // tells.
-    triangles_.visit(mesh_.positions()[welded], direction, hit_tolerance, visitor);
+    triangles_.visit(mesh_.positions()[welded], direction, hit_tolerance, std::cref(visitor));
     if (first_entry <= limit && limit < unlimited) {
         count = 0;
         hopeful = false;
-        triangles_.visit(mesh_.positions()[welded], direction, hit_tolerance, visitor);
+        triangles_.visit(mesh_.positions()[welded], direction, hit_tolerance, std::cref(visitor));
     }
     if (count == max_crossings) return std::nullopt;  // a mesh so tangled gives no answer
     const std::span found = std::span(crossings).first(count);
