@@ -47,7 +47,7 @@ Array to_array(py::handle value, std::string_view name) {
         refuse_argument(name, shown + ", of type " + py::str(given.dtype()).cast<std::string>(),
                         "real numbers (a boolean, integer or float type)");
     }
-    return Array::ensure(given);
+    return Array::check_(given) ? py::reinterpret_borrow<Array>(given) : Array::ensure(given);
 }
 
 glm::dvec3 to_vec3(py::handle value, std::string_view name) {

@@ -17,11 +17,9 @@ struct Options {
     std::string mask;
     bool ignore_edges = false;
     double peak = 1.0;
-    double scale = 0.0;
-    double max_rms = 0.0;
+    std::optional<double> scale;
+    std::optional<double> max_rms;
     bool json = false;
-    CLI::Option* scale_option = nullptr;
-    CLI::Option* max_rms_option = nullptr;
 };
 
 constexpr std::array<const char*, 3> channel_names = {"red", "green", "blue"};
@@ -61,8 +59,7 @@ void print_text(const ImageComparison& comparison, std::optional<double> heat_ma
 
 /// @return the exit code
 int run(const Options& options) {
-    const bool limited = options.max_rms_option->count() > 0;
-    if (limited) require_not_negative("--max-rms", options.max_rms);
+    if (options.max_rms) require_not_negative("--max-rms", *options.max_rms);
     refuse_overwriting({options.heat_map}, {options.first, options.second, options.mask});
     CompareOptions how;
     how.peak = options.peak;
@@ -71,19 +68,15 @@ int run(const Options& options) {
     const ImageComparison comparison = compare_images(options.first, options.second, how);
     for (const std::string& note : comparison.notes) std::cerr << "skinglow: file " << note << '\n';
     std::optional<double> white;
-    if (!options.heat_map.empty()) {
-        std::optional<double> scale;
-        if (options.scale_option->count() > 0) scale = options.scale;
-        white = write_heat_map(options.heat_map, comparison, scale);
-    }
+    if (!options.heat_map.empty()) white = write_heat_map(options.heat_map, comparison, options.scale);
     if (options.json) {
         print_as_json(comparison, white);
     } else {
         print_text(comparison, white);
     }
-    if (!limited || comparison.total.rms <= options.max_rms) return 0;
+    if (!options.max_rms || comparison.total.rms <= *options.max_rms) return 0;
     std::cerr << "skinglow: RMS " << short_number(comparison.total.rms) << " is above --max-rms "
-              << short_number(options.max_rms) << '\n';
+              << short_number(*options.max_rms) << '\n';
     return 1;
 }
 
@@ -98,23 +91,18 @@ void add_compare_command(CLI::App& program, int& exit_code) {
         ->add_option("--heatmap", options->heat_map,
                      "Write a picture of the difference: black none, white most")
         ->type_name("PNG");
-    options->scale_option = command
-                                ->add_option("--scale", options->scale,
-                                             "Difference that the heat map shows white; else the largest")
-                                ->type_name("X")
-                                ->needs("--heatmap");
+    command
+        ->add_option("--scale", options->scale, "Difference that the heat map shows white; else the largest")
+        ->type_name("X")
+        ->needs("--heatmap");
     command->add_option("--mask", options->mask, "Compare only where this image is above 0")
         ->type_name("IMAGE");
     command->add_flag(
         "--ignore-edges", options->ignore_edges,
         "Leave out antialiased edges: pixels in whose 3 x 3 neighborhood alpha or mask changes");
-    command->add_option("--peak", options->peak, "Value of white for PSNR")
-        ->type_name("X")
-        ->capture_default_str();
-    options->max_rms_option = command
-                                  ->add_option("--max-rms", options->max_rms,
-                                               "Exit with 1 if the RMS over all channels is above it")
-                                  ->type_name("X");
+    command->add_option("--peak", options->peak, "Value of white for PSNR")->type_name("X");
+    command->add_option("--max-rms", options->max_rms, "Exit with 1 if the RMS over all channels is above it")
+        ->type_name("X");
     command->add_flag("--json", options->json, "Print JSON with every digit instead of a table");
     command->footer(
         "Example: skinglow compare blender.exr povray.exr --ignore-edges --heatmap difference.png --max-rms "

@@ -120,12 +120,9 @@ void add_lut_command(CLI::App& program) {
     options->rig.add_to(*command, RigNeed::optional);
     options->table.add_to(*command, true);
     options->skin.add_to(*command);
-    command->add_option("--bits", options->bits, "Of a PNG")
-        ->check(CLI::IsMember({8, 16}))
-        ->capture_default_str();
+    command->add_option("--bits", options->bits, "Of a PNG")->check(CLI::IsMember({8, 16}));
     command->add_option("--encoding", options->encoding, "Of a PNG")
-        ->check(CLI::IsMember({"srgb", "linear"}))
-        ->capture_default_str();
+        ->check(CLI::IsMember({"srgb", "linear"}));
     command->add_option("-o,--output", options->output, "File to write: .exr, .png or .csv")
         ->type_name("FILE")
         ->required();

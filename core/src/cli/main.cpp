@@ -27,6 +27,8 @@ int run(int argc, char** argv) {
     program.name("skinglow");
     program.set_version_flag("--version", SKINGLOW_VERSION);
     program.require_subcommand(1);
+    program.option_defaults()
+        ->always_capture_default();  // shown by --help; also of the sub-commands added below
     program.footer("skinglow COMMAND --help tells more. Lengths are in mm, colors linear Rec.709.");
     int exit_code = 0;
     skinglow::cli::add_weights_command(program);

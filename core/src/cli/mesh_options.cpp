@@ -23,25 +23,22 @@ bool show_progress(double done) {
 
 void MeshOptions::add_to(CLI::App& command, const std::string& mesh_name) {
     command.add_option(mesh_name, path_, "OBJ, PLY, STL, glTF or GLB")->required();
-    unit_option_ =
-        command
-            .add_option(
-                "--unit", thickness_.unit_mm,
-                "Length of the mesh's unit; else 1000 for glTF and GLB, whose unit is the meter, and 1")
-            ->type_name("MM");
+    command
+        .add_option("--unit", unit_mm_,
+                    "Length of the mesh's unit; else 1000 for glTF and GLB, whose unit is the meter, and 1")
+        ->type_name("MM");
     command.add_option("--group", group_, "Only this group or object of the file")->type_name("NAME");
-    command.add_option("--rays", thickness_.rays, "Rays per vertex")->type_name("N")->capture_default_str();
+    command.add_option("--rays", thickness_.rays, "Rays per vertex")->type_name("N");
     command
         .add_option("--min-sky-visibility,--min-openness", thickness_.min_sky_visibility,
                     "Fraction of the sky's light below which a hollow counts as flesh, 0 to 1")
-        ->type_name("X")
-        ->capture_default_str();
+        ->type_name("X");
 }
 
 TriangleMesh MeshOptions::read() {
     MeshFile file = read_mesh(path_, group_);
     for (const std::string& note : file.notes) tell(path_, note);
-    if (unit_option_->count() == 0) thickness_.unit_mm = file.unit_mm;
+    thickness_.unit_mm = unit_mm_.value_or(file.unit_mm);
     sources_ = std::move(file.sources);
     return std::move(file.mesh);
 }

@@ -3,6 +3,7 @@
 #include <skinglow/thickness.h>
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,7 @@ class MeshOptions {
     std::string path_;
     std::string group_;
     ThicknessOptions thickness_;
-    CLI::Option* unit_option_ = nullptr;
+    std::optional<double> unit_mm_;  ///< of --unit
     std::vector<std::filesystem::path> sources_;
 };
 

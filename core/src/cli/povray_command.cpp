@@ -34,8 +34,7 @@ struct Options {
     std::uint32_t height = 512;
     double field_of_view = 40.0;
     double strength = 1.0;
-    std::array<double, 3> surface{};
-    CLI::Option* surface_option = nullptr;
+    std::optional<std::array<double, 3>> surface;
 };
 
 /// The mesh in the scene's axes: one with y up is turned as Blender's importers do.
@@ -125,9 +124,8 @@ void run(Options& options) {
     scene.lut.coefficients = rig.coefficients;
     scene.lut.blood_weight = rig.blood_weight;
     scene.lut.strength = options.strength;
-    if (options.surface_option->count() > 0) {
-        scene.surface = PovraySurface{{options.surface[0], options.surface[1], options.surface[2]}, ""};
-    }
+    if (const auto& rgb = options.surface)
+        scene.surface = PovraySurface{{(*rgb)[0], (*rgb)[1], (*rgb)[2]}, ""};
     scene.mesh.geometry = mesh;
     for (const double thickness : options.mesh.measure(mesh)) {
         scene.mesh.lut_u.push_back(scene.lut.axis.texel_scale() * thickness + scene.lut.axis.texel_offset());
@@ -157,24 +155,14 @@ void add_povray_command(CLI::App& program) {
         ->type_name("DIR")
         ->required();
     command->add_option("--up", options->up, "The mesh file's axis that points up")
-        ->check(CLI::IsMember({"y", "z"}))
-        ->capture_default_str();
-    command->add_option("--width", options->width, "Of the picture")
-        ->type_name("PIXELS")
-        ->capture_default_str();
-    command->add_option("--height", options->height, "Of the picture")
-        ->type_name("PIXELS")
-        ->capture_default_str();
+        ->check(CLI::IsMember({"y", "z"}));
+    command->add_option("--width", options->width, "Of the picture")->type_name("PIXELS");
+    command->add_option("--height", options->height, "Of the picture")->type_name("PIXELS");
     command->add_option("--field-of-view", options->field_of_view, "Angle that the width covers")
-        ->type_name("DEGREES")
-        ->capture_default_str();
-    command->add_option("--strength", options->strength, "Of the glow")
-        ->type_name("X")
-        ->capture_default_str();
-    options->surface_option =
-        command
-            ->add_option("--surface", options->surface, "Also a matt surface of this color, lit by the lamps")
-            ->type_name("R G B");
+        ->type_name("DEGREES");
+    command->add_option("--strength", options->strength, "Of the glow")->type_name("X");
+    command->add_option("--surface", options->surface, "Also a matt surface of this color, lit by the lights")
+        ->type_name("R G B");
     command->footer(
         "Example: skinglow povray table1.json --mesh head.obj --unit 100 --group body --up y -o scene");
     command->callback([options] { run(*options); });

@@ -18,36 +18,27 @@ glm::dvec3 to_vector(const std::array<double, 3>& numbers) {
 
 void RigOptions::add_to(CLI::App& command, RigNeed need) {
     need_ = need;
-    CLI::Option* rig = command.add_option("RIG", rig_path_,
-                                          "Lights: a rig file (JSON) or a studio light of Blender's (*.sl)");
-    if (need != RigNeed::optional) rig->required();
-    point_option_ = command.add_option("--point", point_, "Where on the skin, scene units; else the rig's")
-                        ->type_name("X Y Z");
-    coefficients_option_ =
-        command
-            .add_option("--coefficients", coefficients_,
-                        "Constant, linear and quadratic of the attenuation; else the rig's")
-            ->type_name("KC KL KQ");
-    blood_option_ =
-        command.add_option("--blood", blood_, "Blood weight B; else the rig's")->type_name("R G B");
+    command.add_option("RIG", rig_path_, "Lights: a rig file (JSON) or a studio light of Blender's (*.sl)")
+        ->required(need != RigNeed::optional);
+    command.add_option("--point", point_, "Where on the skin, scene units; else the rig's")
+        ->type_name("X Y Z");
+    command
+        .add_option("--coefficients", coefficients_,
+                    "Constant, linear and quadratic of the attenuation; else the rig's")
+        ->type_name("KC KL KQ");
+    command.add_option("--blood", blood_, "Blood weight B; else the rig's")->type_name("R G B");
     const std::string whose = need == RigNeed::with_camera
                                   ? "Of the camera, on which the lights of *.sl hang"
                                   : "For *.sl: of the camera that the lights hang on";
-    camera_option_ = command
-                         .add_option("--camera-rotation", camera_degrees_,
-                                     whose + ", XYZ in degrees; else 90 0 0, Blender's front view")
-                         ->type_name("X Y Z");
-}
-
-bool RigOptions::any_used() const {
-    return given() || point_option_->count() + coefficients_option_->count() + blood_option_->count() +
-                              camera_option_->count() >
-                          0;
+    command
+        .add_option("--camera-rotation", camera_degrees_,
+                    whose + ", XYZ in degrees; else 90 0 0, Blender's front view")
+        ->type_name("X Y Z");
 }
 
 glm::dmat3 RigOptions::camera() const {
-    if (camera_option_->count() == 0) return front_view;
-    return camera_axes(to_vector(camera_degrees_) * (std::numbers::pi / 180.0));
+    if (!camera_degrees_) return front_view;
+    return camera_axes(to_vector(*camera_degrees_) * (std::numbers::pi / 180.0));
 }
 
 LightRig RigOptions::read() const {
@@ -57,16 +48,14 @@ LightRig RigOptions::read() const {
         for (const std::string& note : studio.notes) tell(rig_path_, note);
         rig.lights = std::move(studio.lights);
     } else {
-        if (camera_option_->count() > 0 && need_ != RigNeed::with_camera) {
+        if (camera_degrees_ && need_ != RigNeed::with_camera) {
             throw std::invalid_argument("--camera-rotation is for *.sl files; a rig file has world axes");
         }
         rig = read_light_rig(rig_path_);
     }
-    if (point_option_->count() > 0) rig.point = to_vector(point_);
-    if (coefficients_option_->count() > 0) {
-        rig.coefficients = {coefficients_[0], coefficients_[1], coefficients_[2]};
-    }
-    if (blood_option_->count() > 0) rig.blood_weight = to_vector(blood_);
+    if (point_) rig.point = to_vector(*point_);
+    if (coefficients_) rig.coefficients = {(*coefficients_)[0], (*coefficients_)[1], (*coefficients_)[2]};
+    if (blood_) rig.blood_weight = to_vector(*blood_);
     validate(rig);
     return rig;
 }

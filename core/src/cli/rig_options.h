@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <glm/mat3x3.hpp>
+#include <optional>
 #include <string>
 
 #include "rig_files/light_rig.h"
@@ -24,7 +25,7 @@ class RigOptions {
     bool given() const { return !rig_path_.empty(); }
     const std::string& path() const { return rig_path_; }
     /// True where an option that needs a rig was used.
-    bool any_used() const;
+    bool any_used() const { return given() || point_ || coefficients_ || blood_ || camera_degrees_; }
     /// Axes of the camera by --camera-rotation, else Blender's front view.
     glm::dmat3 camera() const;
     /// Reads the rig (JSON or *.sl) and puts the command line's numbers in place. What reading decided is
@@ -34,14 +35,10 @@ class RigOptions {
   private:
     RigNeed need_ = RigNeed::required;
     std::string rig_path_;
-    std::array<double, 3> point_{};
-    std::array<double, 3> coefficients_{};
-    std::array<double, 3> blood_{};
-    std::array<double, 3> camera_degrees_{};
-    CLI::Option* point_option_ = nullptr;
-    CLI::Option* coefficients_option_ = nullptr;
-    CLI::Option* blood_option_ = nullptr;
-    CLI::Option* camera_option_ = nullptr;
+    std::optional<std::array<double, 3>> point_;
+    std::optional<std::array<double, 3>> coefficients_;
+    std::optional<std::array<double, 3>> blood_;
+    std::optional<std::array<double, 3>> camera_degrees_;
 };
 
 }  // namespace skinglow::cli

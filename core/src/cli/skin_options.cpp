@@ -9,6 +9,8 @@
 namespace skinglow::cli {
 namespace {
 
+constexpr const char* default_preset = "light";
+
 /// What the parameters of a Tissue are called on the command line.
 constexpr std::array<std::pair<std::string_view, const char*>, 7> option_names = {{
     {"melanin_fraction", "--melanin"},
@@ -33,33 +35,30 @@ void SkinOptions::add_to(CLI::App& command) {
     for (const TissuePreset& preset : tissue_presets()) {
         presets.append(presets.empty() ? "" : ", ").append(preset.name);
     }
-    preset_option_ = command.add_option("--skin", preset_, "Of mode physical: " + presets)
-                         ->type_name("PRESET")
-                         ->capture_default_str();
+    command.add_option("--skin", preset_, "Of mode physical: " + presets)
+        ->type_name("PRESET")
+        ->default_str(default_preset);
     for (const TissueParameter& parameter : tissue_parameters()) {
         const auto* named = std::find_if(option_names.begin(), option_names.end(),
                                          [&](const auto& entry) { return entry.first == parameter.name; });
-        options_[parameter.name] =
-            command.add_option(named->second, values_[parameter.name], describe(parameter))
-                ->type_name(parameter.unit == "mm" ? "MM" : "X");
+        command.add_option(named->second, values_[parameter.name], describe(parameter))
+            ->type_name(parameter.unit == "mm" ? "MM" : "X");
     }
-    tolerance_option_ =
-        command
-            .add_option("--tolerance", tolerance_, "Largest error of mode physical, relative; 1e-6 to 0.1")
-            ->type_name("X")
-            ->capture_default_str();
+    command.add_option("--tolerance", tolerance_, "Largest error of mode physical, relative; 1e-6 to 0.1")
+        ->type_name("X")
+        ->default_str(to_text(default_lut_tolerance));
 }
 
 bool SkinOptions::any_used() const {
-    std::size_t used = preset_option_->count() + tolerance_option_->count();
-    for (const auto& [name, option] : options_) used += option->count();
-    return used > 0;
+    return preset_ || tolerance_ || std::any_of(values_.begin(), values_.end(), [](const auto& entry) {
+               return entry.second.has_value();
+           });
 }
 
 Tissue SkinOptions::tissue() const {
-    Tissue tissue = tissue_preset(preset_).tissue;
+    Tissue tissue = tissue_preset(preset_.value_or(default_preset)).tissue;
     for (const TissueParameter& parameter : tissue_parameters()) {
-        if (options_.at(parameter.name)->count() > 0) tissue.*parameter.field = values_.at(parameter.name);
+        if (const auto& value = values_.at(parameter.name)) tissue.*parameter.field = *value;
     }
     validate(tissue);
     return tissue;

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace skinglow::cli {
@@ -18,15 +19,12 @@ class SkinOptions {
     bool any_used() const;
     /// The preset with the parameters that were given put in place. Throws std::invalid_argument.
     Tissue tissue() const;
-    double tolerance() const { return tolerance_; }
+    double tolerance() const { return tolerance_.value_or(default_lut_tolerance); }
 
   private:
-    std::string preset_ = "light";
-    std::map<std::string_view, double> values_;
-    std::map<std::string_view, CLI::Option*> options_;
-    double tolerance_ = default_lut_tolerance;
-    CLI::Option* preset_option_ = nullptr;
-    CLI::Option* tolerance_option_ = nullptr;
+    std::optional<std::string> preset_;
+    std::map<std::string_view, std::optional<double>> values_;
+    std::optional<double> tolerance_;
 };
 
 }  // namespace skinglow::cli

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "cli/rig_options.h"
@@ -11,31 +12,31 @@ namespace skinglow::cli {
 /// The options by which commands choose the mode and the base lookup.
 class TableOptions {
   public:
-    /// Adds --mode, --base, --size and --max-thickness. @param with_skin  mode physical is one to choose
+    /// Adds --mode, --base, --size and --max-thickness.
+    /// @param with_skin  mode physical is one to choose
     void add_to(CLI::App& command, bool with_skin = false);
 
-    LutMode mode() const { return lut_mode(mode_); }
-    bool has_mode() const { return mode_option_->count() > 0; }
+    LutMode mode() const { return mode_ ? lut_mode(*mode_) : LutMode::paper; }
+    bool has_mode() const { return mode_.has_value(); }
     bool has_base() const { return !base_.empty(); }
     /// True where one of the options was used.
-    bool any_used() const;
+    bool any_used() const { return has_base() || has_mode() || size_ || max_thickness_mm_; }
     /// Of the built-in base. Throws std::invalid_argument.
-    LutAxis built_in_axis() const { return {size_, max_thickness_mm_}; }
+    LutAxis built_in_axis() const {
+        return {size_.value_or(default_lut_size), max_thickness_mm_.value_or(default_max_thickness_mm)};
+    }
     /// The image that was given, with notes on standard error, else the built-in skin profile.
     /// Throws FileError and std::invalid_argument.
     BaseLut read_base() const;
 
-    /// The file of --base; empty without.
+    /// The file of --base; empty if not given.
     const std::string& base_path() const { return base_; }
 
   private:
-    std::string mode_{to_text(LutMode::paper)};
+    std::optional<std::string> mode_;
     std::string base_;
-    std::size_t size_ = default_lut_size;
-    double max_thickness_mm_ = default_max_thickness_mm;
-    CLI::Option* mode_option_ = nullptr;
-    CLI::Option* size_option_ = nullptr;
-    CLI::Option* max_thickness_option_ = nullptr;
+    std::optional<std::size_t> size_;
+    std::optional<double> max_thickness_mm_;
 };
 
 }  // namespace skinglow::cli

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <vector>
@@ -24,11 +25,12 @@ std::vector<glm::uvec3> corners_of(const WeldedMesh& mesh) {
     return corners;
 }
 
-bool share_corner(const glm::uvec3& a, const glm::uvec3& b) {
-    for (int k = 0; k < 3; ++k) {
-        if (a[k] == b.x || a[k] == b.y || a[k] == b.z) return true;
-    }
-    return false;
+bool has_corner(const WeldedTriangle& triangle, std::uint32_t welded) {
+    return triangle.corners.x == welded || triangle.corners.y == welded || triangle.corners.z == welded;
+}
+
+bool share_corner(const WeldedTriangle& a, const WeldedTriangle& b) {
+    return has_corner(a, b.corners.x) || has_corner(a, b.corners.y) || has_corner(a, b.corners.z);
 }
 
 /// One passage of a ray through a surface.
@@ -41,8 +43,8 @@ struct Crossing {
 /// A crossing that an earlier one stands for: a ray through an edge or a corner hits each triangle there.
 bool is_repeated(std::span<const Crossing> earlier, const Crossing& crossing, const WeldedMesh& mesh) {
     return std::any_of(earlier.begin(), earlier.end(), [&](const Crossing& other) {
-        return other.leaves == crossing.leaves && share_corner(mesh.triangles()[other.triangle].corners,
-                                                               mesh.triangles()[crossing.triangle].corners);
+        return other.leaves == crossing.leaves &&
+               share_corner(mesh.triangles()[other.triangle], mesh.triangles()[crossing.triangle]);
     });
 }
 
@@ -90,18 +92,17 @@ double RayScene::sky_visibility(std::uint32_t triangle, std::span<const glm::dve
 std::optional<std::uint32_t> RayScene::exit_triangle(std::uint32_t welded, const glm::dvec3& direction,
                                                      std::span<const std::uint8_t> dark) const {
     constexpr float unlimited = std::numeric_limits<float>::infinity();
-    const auto own = mesh_.triangles_at(welded);
     std::array<Crossing, max_crossings> crossings;
     std::size_t count = 0;
     float first_entry = unlimited;
     float limit = unlimited;  // what is nearer has been seen
     bool hopeful = true;
-    const HitVisitor visitor = [&](float distance, std::uint32_t triangle) {
+    const auto visitor = [&](float distance, std::uint32_t triangle) {
         // A ray meets the triangles of the vertex it starts from nowhere else: such a hit is a rounding
         // error.
-        if (std::binary_search(own.begin(), own.end(), triangle)) return unlimited;
-        if (!dark.empty() && dark[triangle] != 0) return unlimited;
-        const double cosine = glm::dot(direction, mesh_.triangles()[triangle].unit_normal);
+        const WeldedTriangle& met = mesh_.triangles()[triangle];
+        if (has_corner(met, welded) || (!dark.empty() && dark[triangle] != 0)) return unlimited;
+        const double cosine = glm::dot(direction, met.unit_normal);
         if (cosine == 0.0 || count == max_crossings) return unlimited;
         crossings[count++] = {distance, triangle, cosine > 0.0};
         const float end = distance + hit_tolerance;
@@ -112,11 +113,11 @@ std::optional<std::uint32_t> RayScene::exit_triangle(std::uint32_t welded, const
     };
     // Mostly the first surface is the way out. Where the ray enters another body before, one look to its end
     // tells.
-    triangles_.visit(mesh_.positions()[welded], direction, hit_tolerance, visitor);
+    triangles_.visit(mesh_.positions()[welded], direction, hit_tolerance, std::cref(visitor));
     if (first_entry <= limit && limit < unlimited) {
         count = 0;
         hopeful = false;
-        triangles_.visit(mesh_.positions()[welded], direction, hit_tolerance, visitor);
+        triangles_.visit(mesh_.positions()[welded], direction, hit_tolerance, std::cref(visitor));
     }
     if (count == max_crossings) return std::nullopt;  // a mesh so tangled gives no answer
     const std::span found = std::span(crossings).first(count);

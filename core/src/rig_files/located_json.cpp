@@ -1,7 +1,7 @@
 #include "rig_files/located_json.h"
 
 #include <algorithm>
-#include <iterator>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -11,88 +11,38 @@ namespace skinglow::detail {
 namespace {
 
 using nlohmann::json;
+using Event = json::parse_event_t;
 
 constexpr std::size_t max_json_bytes = std::size_t{64} << 20U;
 constexpr std::size_t max_json_depth = 16;
 
-/// Iterator that counts the bytes consumed, since nlohmann's SAX callbacks carry no position.
-class WatchedIterator {
+/// Lines of all values by their names, noted while a parser reads them from the stream.
+class LineIndex {
   public:
-    using iterator_category = std::input_iterator_tag;
-    using value_type = char;
-    using difference_type = std::ptrdiff_t;
-    using pointer = const char*;
-    using reference = const char&;
-
-    WatchedIterator(const char* place, std::size_t* consumed) : place_(place), consumed_(consumed) {}
-    reference operator*() const { return *place_; }
-    WatchedIterator& operator++() {
-        ++place_;
-        ++*consumed_;
-        return *this;
-    }
-    WatchedIterator operator++(int) {
-        WatchedIterator before = *this;
-        ++*this;
-        return before;
-    }
-    bool operator==(const WatchedIterator& other) const { return place_ == other.place_; }
-    bool operator!=(const WatchedIterator& other) const { return place_ != other.place_; }
-
-  private:
-    const char* place_;
-    std::size_t* consumed_;
-};
-
-/// Listens to the parser and notes the line of every value.
-class LineListener : public nlohmann::json_sax<json> {
-  public:
-    LineListener(const std::filesystem::path& path, std::string_view text, const std::size_t& consumed)
-        : path_(path), text_(text), consumed_(consumed) {}
+    LineIndex(const std::filesystem::path& path, std::istringstream& stream) : path_(path), stream_(stream) {}
 
     std::unordered_map<std::string, std::size_t> take_lines() { return std::move(lines_); }
 
-    bool null() override { return note_value(); }
-    bool boolean(bool) override { return note_value(); }
-    bool number_integer(number_integer_t) override { return note_value(); }
-    bool number_unsigned(number_unsigned_t) override { return note_value(); }
-    bool number_float(number_float_t, const string_t&) override { return note_value(); }
-    bool string(string_t&) override { return note_value(); }
-    bool binary(binary_t&) override { return note_value(); }
-    bool start_object(std::size_t) override { return open(false); }
-    bool start_array(std::size_t) override { return open(true); }
-    bool end_object() override { return close(); }
-    bool end_array() override { return close(); }
-
-    bool key(string_t& name) override {
-        const Level& level = levels_.back();
-        next_ = level.name.empty() ? name : level.name + "." + name;
-        if (!lines_.emplace(next_, line()).second) {
-            refuse_file(path_, "is there twice", "remove one",
-                        "key " + next_ + " (line " + std::to_string(line()) + ")");
-        }
-        return true;
+    /// Bytes that the parser has taken; after a number one more than belongs to it.
+    std::size_t consumed() const {
+        return static_cast<std::size_t>(stream_.rdbuf()->pubseekoff(0, std::ios::cur, std::ios::in));
     }
 
-    bool parse_error(std::size_t position, const std::string&,
-                     const nlohmann::detail::exception& error) override {
-        // The library's text begins with its error number and place; what matters comes after.
-        std::string reason = error.what();
-        for (const std::string_view mark : {"] ", ": "}) {
-            if (const std::size_t found = reason.find(mark); found != std::string::npos) {
-                if (mark == ": " && !reason.starts_with("parse error at")) continue;
-                reason.erase(0, found + mark.size());
+    void note(Event event, const json& parsed) {
+        if (event == Event::object_end || event == Event::array_end) {
+            levels_.pop_back();
+        } else if (event == Event::key) {
+            note_key(parsed.get_ref<const std::string&>());
+        } else {
+            std::string name = take_name();
+            lines_.emplace(name, line());  // a key's own line stays
+            if (event == Event::value) return;
+            if (levels_.size() >= max_json_depth) {
+                refuse_file(path_, "is nested deeper than " + std::to_string(max_json_depth),
+                            "give a light rig", "line " + std::to_string(line()));
             }
+            levels_.push_back({std::move(name), event == Event::array_start});
         }
-        // Position counts from 1; the end of the file is one beyond the last character.
-        const std::string_view before =
-            text_.substr(0, std::min(position, text_.size() + 1) - (position > 0 ? 1 : 0));
-        const auto lines = std::count(before.begin(), before.end(), '\n');
-        const std::size_t line_start =
-            before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
-        refuse_file(path_, "is not JSON (" + reason + ")", "correct it there or just before",
-                    "line " + std::to_string(lines + 1) + ", column " +
-                        std::to_string(before.size() - line_start + 1));
     }
 
   private:
@@ -102,20 +52,16 @@ class LineListener : public nlohmann::json_sax<json> {
         std::size_t entries = 0;
     };
 
-    /// Line of the character consumed last but for one that a number looks ahead. Advances with the text: one
-    /// pass.
-    std::size_t line() {
-        const std::size_t end = consumed_ > 0 ? consumed_ - 1 : 0;
-        if (end > counted_) {
-            line_ +=
-                static_cast<std::size_t>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(counted_),
-                                                    text_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
-            counted_ = end;
+    void note_key(const std::string& key) {
+        const Level& level = levels_.back();
+        next_ = level.name.empty() ? key : level.name + "." + key;
+        if (!lines_.emplace(next_, line()).second) {
+            refuse_file(path_, "is there twice", "remove one",
+                        "key " + next_ + " (line " + std::to_string(line()) + ")");
         }
-        return line_;
     }
 
-    /// Name of the value that comes: the last key, or the next place in an array.
+    /// Name of the value that comes: the last key, or the next index of an array.
     std::string take_name() {
         if (levels_.empty()) return "";
         Level& level = levels_.back();
@@ -123,30 +69,19 @@ class LineListener : public nlohmann::json_sax<json> {
         return level.name + "[" + std::to_string(level.entries++) + "]";
     }
 
-    bool note_value() {
-        lines_.emplace(take_name(), line());  // a key's own line stays
-        return true;
-    }
-
-    bool open(bool is_array) {
-        std::string name = take_name();
-        lines_.emplace(name, line());
-        if (levels_.size() >= max_json_depth) {
-            refuse_file(path_, "is nested deeper than " + std::to_string(max_json_depth), "give a light rig",
-                        "line " + std::to_string(line()));
+    /// Line of the last character but for the one that a number looks ahead. Counts on from the last call.
+    std::size_t line() {
+        const std::size_t end = std::max<std::size_t>(consumed(), 1) - 1;
+        if (end > counted_) {
+            const std::string_view added = stream_.view().substr(counted_, end - counted_);
+            line_ += static_cast<std::size_t>(std::count(added.begin(), added.end(), '\n'));
+            counted_ = end;
         }
-        levels_.push_back({std::move(name), is_array});
-        return true;
-    }
-
-    bool close() {
-        levels_.pop_back();
-        return true;
+        return line_;
     }
 
     const std::filesystem::path& path_;
-    std::string_view text_;
-    const std::size_t& consumed_;
+    std::istringstream& stream_;
     std::size_t counted_ = 0;
     std::size_t line_ = 1;
     std::unordered_map<std::string, std::size_t> lines_;
@@ -154,16 +89,36 @@ class LineListener : public nlohmann::json_sax<json> {
     std::string next_;
 };
 
+/// @param position  of the character at fault, from 1; beyond the end at most one
+[[noreturn]] void refuse_syntax(const std::filesystem::path& path, std::string_view text,
+                                std::size_t position, std::string reason) {
+    // The library's text begins with its error number and the line; what matters comes after.
+    reason.erase(0, reason.find("] ") + 2);
+    if (reason.starts_with("parse error at")) reason.erase(0, reason.find(": ") + 2);
+    const std::string_view before = text.substr(0, std::max<std::size_t>(position, 1) - 1);
+    const auto lines = std::count(before.begin(), before.end(), '\n');
+    const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
+    refuse_file(path, "is not JSON (" + reason + ")", "correct it there or just before",
+                "line " + std::to_string(lines + 1) + ", column " + std::to_string(column));
+}
+
 }  // namespace
 
 LocatedJson::LocatedJson(const std::filesystem::path& path) : path_(path) {
-    const std::string text = read_whole_file(path, max_json_bytes);
-    std::size_t consumed = 0;
-    LineListener listener(path_, text, consumed);
-    json::sax_parse(WatchedIterator(text.data(), &consumed),
-                    WatchedIterator(text.data() + text.size(), &consumed), &listener);
-    lines_ = listener.take_lines();
-    value_ = json::parse(text);
+    std::istringstream stream(read_whole_file(path, max_json_bytes));
+    LineIndex index(path_, stream);
+    try {
+        value_ = json::parse(stream, [&](int /*depth*/, Event event, const json& parsed) {
+            index.note(event, parsed);
+            return true;
+        });
+    } catch (const json::parse_error& error) {
+        refuse_syntax(path_, stream.view(), error.byte, error.what());
+    } catch (const json::out_of_range& error) {
+        // A number's end shows in the character after it, if there is one.
+        refuse_syntax(path_, stream.view(), index.consumed() - (stream.eof() ? 0 : 1), error.what());
+    }
+    lines_ = index.take_lines();
 }
 
 void LocatedJson::refuse(const std::string& name, std::string_view what, std::string_view remedy) const {

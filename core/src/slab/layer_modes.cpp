@@ -13,7 +13,7 @@ constexpr double min_absorption = 1e-24;
 
 }  // namespace
 
-LayerModes::LayerModes(const Layer& layer, const AngularBasis& basis) {
+LayerModes::LayerModes(const Layer& layer, const AngularBasis& basis, Eigen::MatrixXd* shape) {
     const Eigen::VectorXd& mu = basis.cosine;
     const Eigen::Index n = mu.size();
     const double flux_scale = layer.refractive_index * std::sqrt(basis.weight_sum);
@@ -22,12 +22,12 @@ LayerModes::LayerModes(const Layer& layer, const AngularBasis& basis) {
         scatters = false;
         // Streams ascend in n sin(theta), hence also in 1 / mu; modes descend in k.
         decay = attenuation * mu.cwiseInverse().reverse();
-        shape = Eigen::MatrixXd::Zero(n, n);
+        if (shape != nullptr) *shape = Eigen::MatrixXd::Zero(n, n);
         dual = Eigen::MatrixXd::Zero(n, n);
         net_flux.resize(n);
         for (Eigen::Index i = 0; i < n; ++i) {
             const Eigen::Index mode = n - 1 - i;
-            shape(i, mode) = std::sqrt(attenuation / mu[i]);
+            if (shape != nullptr) (*shape)(i, mode) = std::sqrt(attenuation / mu[i]);
             dual(i, mode) = std::sqrt(mu[i] / attenuation);
             net_flux[mode] = flux_scale * basis.even(i, 0) * mu[i] / std::sqrt(attenuation);
         }
@@ -73,7 +73,10 @@ LayerModes::LayerModes(const Layer& layer, const AngularBasis& basis) {
     decay = attenuation * solver.eigenvalues().cwiseMax(smallest).cwiseSqrt().cwiseInverse();
     const Eigen::VectorXd root_odd = std::sqrt(attenuation) * odd.cwiseSqrt();
     const Eigen::VectorXd root_mu = mu.cwiseSqrt();
-    shape.noalias() = (root_mu.cwiseInverse().asDiagonal() * basis.odd) * (root_odd.asDiagonal() * vectors);
+    if (shape != nullptr) {
+        shape->noalias() =
+            (root_mu.cwiseInverse().asDiagonal() * basis.odd) * (root_odd.asDiagonal() * vectors);
+    }
     dual.noalias() = (root_mu.asDiagonal() * basis.odd) * (root_odd.cwiseInverse().asDiagonal() * vectors);
     net_flux = flux_scale * recurrence(1) / root_odd[0] * vectors.row(0).transpose();
 }

@@ -23,12 +23,13 @@ namespace skinglow::detail {
 ///   a_bottom.
 struct LayerModes {
     Eigen::VectorXd decay;     ///< k, 1/mm, descending
-    Eigen::MatrixXd shape;     ///< streams x modes, 1/sqrt(mm)
     Eigen::MatrixXd dual;      ///< streams x modes, sqrt(mm)
     Eigen::VectorXd net_flux;  ///< net downward flux carried by a unit of b, per mode
 
-    /// A layer that absorbs or scatters; its thickness is not read.
-    LayerModes(const Layer& layer, const AngularBasis& basis);
+    /// @param layer that absorbs or scatters; its thickness is not read
+    /// @param basis of the layer's index
+    /// @param shape becomes, unless null, streams x modes, 1/sqrt(mm)
+    LayerModes(const Layer& layer, const AngularBasis& basis, Eigen::MatrixXd* shape = nullptr);
 
     /// False for a layer that only absorbs: every mode is then one stream, and shape and dual have one entry
     /// in each row and column (streams ascend where modes descend: on the antidiagonal).

@@ -35,17 +35,15 @@ LayerOperators layer_operators(const LayerModes& modes, double thickness) {
     // light is (1 - Y)(1 + Y)^-1 of the incoming one; R and T are half the sum and half the difference, and
     // the difference is formed from k / sinh(k d) and not by subtraction.
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(n, n);
-    const auto admittance = [&](const Eigen::VectorXd& factor) -> Eigen::MatrixXd {
-        return modes.dual * factor.asDiagonal() * modes.dual.transpose();
+    const auto inverse = [&](const Eigen::VectorXd& factor) -> Eigen::MatrixXd {  // of 1 + Y
+        Eigen::MatrixXd system = identity;
+        system.selfadjointView<Eigen::Lower>().rankUpdate(modes.dual * factor.cwiseSqrt().asDiagonal());
+        return system.llt().solve(identity);
     };
-    if (std::isinf(thickness)) {
-        const Eigen::MatrixXd inverse = (identity + admittance(modes.decay)).llt().solve(identity);
-        return {2 * inverse - identity, Eigen::MatrixXd::Zero(n, n)};
-    }
+    if (std::isinf(thickness)) return {2 * inverse(modes.decay) - identity, Eigen::MatrixXd::Zero(n, n)};
     const ModeFactors factors = mode_factors(modes.decay, thickness);
-    const Eigen::MatrixXd symmetric = (identity + admittance(factors.symmetric)).llt().solve(identity);
-    const Eigen::MatrixXd antisymmetric =
-        (identity + admittance(factors.antisymmetric)).llt().solve(identity);
+    const Eigen::MatrixXd symmetric = inverse(factors.symmetric);
+    const Eigen::MatrixXd antisymmetric = inverse(factors.antisymmetric);
     LayerOperators layer;
     layer.reflection = symmetric + antisymmetric - identity;
     layer.transmission = 2 * ((antisymmetric * modes.dual) * factors.through.asDiagonal()) *

@@ -150,7 +150,8 @@ double StreamGrid::cosine(int stream, double n) const {
 
 // Born and Wolf, Principles of Optics, 1.5.2.
 double StreamGrid::reflectance(int stream, double n_a, double n_b) const {
-    if (stream >= count(n_a) || stream >= count(n_b)) return 1;
+    if (stream >= count(std::min(n_a, n_b))) return 1;
+    if (n_a == n_b) return 0;
     const double cosine_a = cosine(stream, n_a);
     const double cosine_b = cosine(stream, n_b);
     const double perpendicular = (n_a * cosine_a - n_b * cosine_b) / (n_a * cosine_a + n_b * cosine_b);

@@ -39,11 +39,11 @@ struct Neighbor {
     Eigen::MatrixXd image;
 
     Neighbor() = default;
-    Neighbor(const LayerModes& modes, const Eigen::MatrixXd& reflection) {
+    Neighbor(const Eigen::MatrixXd& shape, const Eigen::MatrixXd& reflection) {
         const Eigen::Index n = reflection.rows();
         const Eigen::PartialPivLU<Eigen::MatrixXd> solver(Eigen::MatrixXd::Identity(n, n) + reflection);
-        image = solver.solve(modes.shape);
-        load.noalias() = modes.shape.transpose() * (image - reflection * image);
+        image = solver.solve(shape);
+        load.noalias() = shape.transpose() * (image - reflection * image);
         load = (0.5 * (load + load.transpose())).eval();  // symmetric by reciprocity; now in the last digit
     }
 };
@@ -76,7 +76,8 @@ VariableLayer::VariableLayer(const StreamGrid& grid, std::span<const Layer> laye
     const bool symmetric = is_mirror_image(layers, variable, grid.n_above(), grid.n_below());
     const Layer layer = with_modes(layers[variable]);
     const double n = layer.refractive_index;
-    const LayerModes modes(layer, grid.basis(n));
+    Eigen::MatrixXd shape;
+    const LayerModes modes(layer, grid.basis(n), &shape);
     decay_ = to_vector(modes.decay);
     attenuation_ = layer.absorption + layer.scattering;
 
@@ -85,7 +86,7 @@ VariableLayer::VariableLayer(const StreamGrid& grid, std::span<const Layer> laye
     std::vector<Layer> above(layers.begin(), layers.begin() + static_cast<std::ptrdiff_t>(variable));
     std::reverse(above.begin(), above.end());
     const LayerStack stack_above(grid, n, above, grid.n_above());
-    Neighbor top(modes, stack_above.reflection());
+    Neighbor top(shape, stack_above.reflection());
     Eigen::VectorXd source = 2 * top.image.transpose() * stack_above.transmit_transposed(grid.incident());
     const Eigen::VectorXd leaving = grid.root_flux_weight().head(grid.count(grid.n_below()));
     Neighbor bottom;
@@ -94,7 +95,7 @@ VariableLayer::VariableLayer(const StreamGrid& grid, std::span<const Layer> laye
         receiver = top.image.transpose() * stack_above.transmit_transposed(leaving);
     } else {
         const LayerStack stack_below(grid, n, layers.subspan(variable + 1), grid.n_below());
-        bottom = Neighbor(modes, stack_below.reflection());
+        bottom = Neighbor(shape, stack_below.reflection());
         receiver = bottom.image.transpose() * stack_below.transmit_transposed(leaving);
     }
 
