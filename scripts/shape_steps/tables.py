@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import resource
-import time
 from collections.abc import Callable
 from typing import NamedTuple, TypeVar
 
@@ -12,7 +11,7 @@ import page
 import skinglow as sg
 from pictures import Pictures, ViewDependence
 from progress import Progress
-from scenes import Array, Error, HeadMesh, error
+from scenes import Array, Error, error
 from truths import Lit
 
 Result = TypeVar("Result")
@@ -80,19 +79,8 @@ def percent(value: float) -> str:
 
 
 def errors_table(measured: list[Measured]) -> str:
-    heading = [
-        "Head",
-        "Light",
-        "Medium, surface",
-        "Cells, mm",
-        "R",
-        "G",
-        "B",
-        "All",
-        "Brightness R, G, B",
-        "Lit side, all",
-        "Table over thickness, all",
-    ]
+    heading = ["Head", "Light", "Medium, surface", "Cells, mm", "R", "G", "B", "All"]
+    heading += ["Brightness R, G, B", "Lit side, all", "Table over thickness, all"]
     rows = []
     for one in measured:
         case = one.case.case
@@ -135,11 +123,6 @@ def cpu(function: Callable[[], Result]) -> tuple[Result, float]:
     return result, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def ear_alone(head: HeadMesh) -> Array:
-    """Points of one ear, as (n, 3) mm."""
-    return head.vertices[head.ear]
-
-
 def costs(lit: Lit) -> list[Cost]:
     """One ear, three channels, one thread. The first light prepares the parts that it falls on."""
     found = []
@@ -154,7 +137,7 @@ def costs(lit: Lit) -> list[Cost]:
                 refractive_index=lit.case.refractive_index,
                 surface=lit.case.surface,
                 cell_mm=cell,
-                points=ear_alone(lit.head),
+                points=lit.head.vertices[lit.head.ear],
                 normals=lit.head.normals[lit.head.ear],
                 threads=1,
             )
@@ -165,7 +148,7 @@ def costs(lit: Lit) -> list[Cost]:
         times = []
         for i in range(REPEATS):
             moved = lit.irradiance * (1.0 + 0.01 * i)
-            times.append(cpu(lambda moved=moved: shape.exitance(moved))[1])
+            times.append(cpu(lambda shape=shape, moved=moved: shape.exitance(moved))[1])
         cells = sum(part.cells for part in shape.parts)
         found.append(Cost(cell, len(shape.points), cells, seconds - min(times), min(times), shape.bytes / 1e6))
     return found
@@ -191,13 +174,7 @@ def costs_table(found: list[Cost]) -> str:
 
 
 def view_table(found: dict[str, ViewDependence]) -> str:
-    heading = [
-        "Head",
-        "Pixels",
-        "Mean of Cycles over exitance / π: R, G, B",
-        "RMS difference, %",
-        "At each channel's best scale, %",
-    ]
+    heading = ["Head", "Pixels", "Cycles over exitance / π, means", "RMS difference, %", "At best scale, %"]
 
     def triple(values: Array, form: str) -> str:
         return ", ".join(format(value, form) for value in values)
@@ -213,12 +190,7 @@ def view_table(found: dict[str, ViewDependence]) -> str:
 
 def walk_seconds(pictures: Pictures, percent_error: float) -> float:
     """CPU seconds that Cycles' walk of the view from the front takes until its noise is that error."""
-    dark = pictures.images["front-dark"]
-    chosen = (dark[:, :, 3] > 0.999) & (dark[:, :, 0] > 0.999)
+    chosen = pictures.exposed("front")
     first, second = (pictures.images[f"front-walk_{k}"][chosen][:, :3] for k in (1, 2))
     noise = 100.0 * np.sqrt(0.5 * ((first - second) ** 2).mean()) / (0.5 * (first + second)).mean()
     return pictures.seconds["front-walk_1"] * (noise / percent_error) ** 2
-
-
-def stamp() -> str:
-    return time.strftime("%B %Y")

@@ -37,6 +37,10 @@ class Lit:
     b: NDArray[np.float64]
 
     @property
+    def mean(self) -> NDArray[np.float64]:
+        return 0.5 * (self.a + self.b)
+
+    @property
     def noise(self) -> NDArray[np.float64]:
         """Of a back-lit vertex, in percent of the mean, per channel."""
         chosen = self.head.ear[self.head.back_lit(self.irradiance)]
