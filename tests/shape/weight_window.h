@@ -23,12 +23,12 @@ class WeightWindow {
     WeightWindow() = default;
 
     /// @param lit      where light enters
-    /// @param targets  where results are wanted: beyond `reach` of them photons need not be many
+    /// @param targets  where results are wanted: beyond `reach` of them photons are few
     /// @param rate     1/mm, 0 or more
     WeightWindow(std::span<const DimmedPoint> lit, std::span<const glm::dvec3> targets, double rate,
                  double reach_mm = 9.0);
 
-    /// 1 at the brightest place and out of reach, above 0 everywhere.
+    /// 1 at the brightest place, above 0 everywhere.
     double weight_at(const glm::dvec3& position) const;
 
   private:

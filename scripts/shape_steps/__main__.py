@@ -1,0 +1,125 @@
+"""Measures light through the real shape against brute force, for docs/shape.md. Run by scripts/accuracy_shape."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+STEPS = Path(__file__).resolve().parent
+# Its own folder first, then scripts/accuracy's before the demo's: both have a page.py.
+sys.path[1:1] = [str(STEPS.parent / name) for name in ("ear_steps", "accuracy_steps", "demo_steps")]
+
+import blender_host  # noqa: E402
+import head_source  # noqa: E402
+import page  # noqa: E402
+import pictures  # noqa: E402
+import tables  # noqa: E402
+from progress import DemoError, Progress  # noqa: E402
+from scenes import HeadMesh  # noqa: E402
+from truths import CASES, SHOWN, truth  # noqa: E402
+
+PROJECT = STEPS.parents[1]
+SCAN = PROJECT.parent / "shared" / "data" / "heads" / "LeePerrySmith.glb"
+PROGRAM = PROJECT / "build" / "reference" / "tests" / "shape" / "shape_monte_carlo"
+METHODS = {
+    "table": "table over thickness",
+    "shape_0.8": "shape, cells of 0.8 mm",
+    "shape_0.5": "shape, 0.5 mm",
+    "monte_carlo": "Monte Carlo",
+    "walk": "Cycles' random walk",
+}
+
+
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="scripts/accuracy_shape", description=__doc__)
+    parser.add_argument("--scan", metavar="FILE", default=str(SCAN), help="the scanned head (default: %(default)s)")
+    parser.add_argument("--blender", metavar="PROGRAM", help="a Blender program or a Python with bpy")
+    parser.add_argument("--program", type=Path, default=PROGRAM, help="the Monte Carlo (default: %(default)s)")
+    parser.add_argument("--photons", type=int, default=800_000, help="per channel and case (default %(default)s)")
+    parser.add_argument("--size", type=int, default=220, help="of a picture, pixels (default %(default)s)")
+    parser.add_argument("--samples", type=int, default=256, help="of a pixel of Cycles' walk (default %(default)s)")
+    parser.add_argument("--out", type=Path, default=Path("out/shape"), help="keeps references (default %(default)s)")
+    parser.add_argument("--no-docs", action="store_true", help="do not update docs/shape.md; pictures go to --out")
+    return parser.parse_args()
+
+
+class Heads:
+    """The scan, if it is there, and MakeHuman's head, as Blender renders them."""
+
+    def __init__(self, scan: str, out: Path, host: blender_host.Host, progress: Progress) -> None:
+        self.sources: dict[str, head_source.Head] = {}
+        self.meshes: dict[str, HeadMesh] = {}
+        for name, file in (("scan", scan), ("makehuman", None)):
+            if file is not None and not Path(file).is_file():
+                progress.say(f"no scan at {file}: MakeHuman's head alone (--scan FILE)")
+                continue
+            self.sources[name] = head_source.find(file, None, progress)
+            path = out / f"{name}.npz"
+            if not path.is_file():
+                job = {**self.sources[name].job(), "mesh_file": str(path)}
+                host.run(str(STEPS / "head_job.py"), job, progress)
+            self.meshes[name] = HeadMesh(path)
+
+
+def main() -> None:
+    options = arguments()
+    out: Path = options.out.resolve()
+    out.mkdir(parents=True, exist_ok=True)
+    progress = Progress(out / "shape.log")
+    host = blender_host.Host.find(options.blender)
+    heads = Heads(options.scan, out, host, progress)
+    cases = [case for case in CASES if case.head in heads.meshes]
+    lit = [truth(case, heads.meshes[case.head], options.program, out, options.photons, progress) for case in cases]
+
+    measured, shown = [], {}
+    for one in lit:
+        result, exitance = tables.measure(one, progress)
+        measured.append(result)
+        if one.case.name in SHOWN:
+            shown[one.case.head] = (one, exitance)
+
+    images = out if options.no_docs else PROJECT / "docs" / "images"
+    views = {}
+    sections = {
+        "errors": tables.errors_table(measured),
+        "noise": tables.noise_table(measured),
+        "cost": tables.costs_table(tables.costs(lit[0])),
+    }
+    for head, (one, exitance) in shown.items():
+        attributes = {
+            "table": one.head.table(one.case.light, one.case.medium),
+            **{f"shape_{cell:g}": values for cell, values in exitance.items()},
+            "monte_carlo": one.mean,
+            "monte_carlo_a": one.a,
+            "monte_carlo_b": one.b,
+        }
+        found = pictures.render(
+            heads.sources[head],
+            one.head,
+            one.case.light,
+            attributes,
+            one.head.back_lit(one.irradiance),
+            {"size": options.size, "samples": options.samples, "out": out, "name": head},
+            host,
+            progress,
+        )
+        pictures.figure(images / f"shape_{head}.png", found, METHODS)
+        views[head] = pictures.view_dependence(found)
+        error = next(m for m in measured if m.case is one).shape[tables.CELLS_MM[0]].back.together
+        seconds = tables.walk_seconds(found, error)
+        progress.say(
+            f"{head}: Cycles' noise is {error:.1f} % after {seconds:.0f} CPU s of {options.size} pixels squared"
+        )
+    sections["view"] = tables.view_table(views)
+    print("\n\n".join(sections.values()), flush=True)
+    if not options.no_docs:
+        page.fill(PROJECT / "docs" / "shape.md", sections)
+    progress.say("done")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except DemoError as error:
+        sys.exit(f"skinglow: {error}")

@@ -1,0 +1,151 @@
+"""Pictures of the lit ear by every method, exposed alike, and how Cycles' own picture differs from exitance / pi."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import blender_host
+import matplotlib
+import numpy as np
+from head_source import Head
+from numpy.typing import NDArray
+from picture_error import Reference
+from progress import Progress
+from scenes import HeadMesh
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  after selecting the backend
+
+STEPS = Path(__file__).resolve().parent
+VIEWS = {"front": "from the front", "back": "from the light's side"}
+#: Of the picture, over the ear's radius.
+MARGIN = 1.0
+
+
+@dataclass
+class Pictures:
+    """(height, width, 4) linear, by "view-method"."""
+
+    images: dict[str, NDArray[np.float64]]
+    seconds: dict[str, float]
+
+    def of(self, view: str, method: str) -> NDArray[np.float64]:
+        if method == "walk":
+            return 0.5 * (self.images[f"{view}-walk_1"] + self.images[f"{view}-walk_2"])
+        return self.images[f"{view}-{method}"]
+
+    def exposed(self, view: str) -> NDArray[np.bool_]:
+        """What the exposure is for: in the view from the front the skin in the dark, else all of it."""
+        dark = self.images[f"{view}-dark"]
+        return (dark[:, :, 3] > 0.999) & ((dark[:, :, 0] > 0.999) | (view != "front"))
+
+
+def render(
+    source: Head,
+    head: HeadMesh,
+    light: str,
+    exitance: dict[str, NDArray[np.float64]],
+    back_lit: NDArray[np.bool_],
+    options: dict[str, Any],
+    host: blender_host.Host,
+    progress: Progress,
+) -> Pictures:
+    """exitance by method, (v, 3); shown is exitance / pi. options: size, samples, out, name."""
+    out = Path(options["out"])
+    attributes = {name: values / np.pi for name, values in exitance.items()}
+    dark = np.zeros((len(head.vertices), 3))
+    dark[head.ear[back_lit]] = 1.0
+    attributes["dark"] = dark
+    files = {part: out / f"pictures-{options['name']}-{part}.npz" for part in ("attributes", "pictures")}
+    np.savez(files["attributes"], **attributes)
+    lamp = head.light(light)
+    radius_mm = float(np.linalg.norm(head.vertices[head.ear] - head.ear_center, axis=1).max())
+    numbers = host.run(
+        str(STEPS / "picture_job.py"),
+        {
+            **source.job(),
+            "package": str(blender_host.PACKAGE) if host.is_full_program else None,
+            "attributes": str(files["attributes"]),
+            "pictures": str(files["pictures"]),
+            "size": options["size"],
+            "samples": options["samples"],
+            "out": str(out),
+            "center": list(head.ear_center / 1000.0),
+            "height": 2.0 * MARGIN * radius_mm / 1000.0,
+            "light": {
+                "power": lamp.power,
+                "radius": lamp.radius,
+                "spot_angle": lamp.spot_angle,
+                "spot_blend": lamp.spot_blend,
+                "position": list(lamp.position),
+                "direction": list(lamp.direction),
+            },
+        },
+        progress,
+    )
+    (out / f"pictures-{options['name']}.json").write_text(json.dumps(numbers))
+    with np.load(files["pictures"]) as file:
+        return Pictures({name: file[name].astype(float) for name in file.files}, numbers["seconds"])
+
+
+def load(out: Path, name: str) -> Pictures | None:
+    """Those of an earlier run."""
+    kept = out / f"pictures-{name}.json"
+    if not kept.is_file():
+        return None
+    with np.load(out / f"pictures-{name}-pictures.npz") as file:
+        images = {key: file[key].astype(float) for key in file.files}
+    return Pictures(images, json.loads(kept.read_text())["seconds"])
+
+
+def figure(path: Path, pictures: Pictures, methods: dict[str, str]) -> None:
+    """Rows are views, columns methods; one exposure for a row."""
+    rows, axes = plt.subplots(len(VIEWS), len(methods), figsize=(2.5 * len(methods), 2.6 * len(VIEWS) + 0.3))
+    for row, (view, title) in zip(axes, VIEWS.items(), strict=True):
+        exposure = 0.9 / np.percentile(pictures.of(view, "monte_carlo")[pictures.exposed(view)][:, 0], 97)
+        for ax, (method, name) in zip(row, methods.items(), strict=True):
+            ax.imshow(to_screen(exposure * pictures.of(view, method)[:, :, :3]), interpolation="nearest")
+            ax.set_xticks([])
+            ax.set_yticks([])
+            if row is axes[0]:
+                ax.set_title(name, fontsize=10)
+        row[0].set_ylabel(title, fontsize=10)
+    rows.tight_layout()
+    rows.savefig(path, dpi=110)
+    plt.close(rows)
+
+
+def to_screen(linear: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Linear Rec.709 to sRGB's curve (IEC 61966-2-1), clipped to 0 to 1."""
+    light = np.clip(linear, 0.0, 1.0)
+    return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
+
+
+@dataclass
+class ViewDependence:
+    """Cycles' picture over exitance / pi on the back-lit pixels of the view from the front."""
+
+    pixels: int
+    ratio: NDArray[np.float64]  # of the means, per channel
+    rms: NDArray[np.float64]  # of the difference over the mean of exitance / pi, per channel, percent
+    rms_at_best: NDArray[np.float64]  # the same with each channel at its best scale
+
+
+def view_dependence(pictures: Pictures) -> ViewDependence:
+    """Noise of both is taken out by their halves."""
+    chosen = pictures.exposed("front")
+    a, b, first, second = (
+        pictures.images[f"front-{name}"][chosen][:, :3]
+        for name in ("monte_carlo_a", "monte_carlo_b", "walk_1", "walk_2")
+    )
+    exitance, walk = 0.5 * (a + b), Reference(first, second).mean
+    scale = (walk * exitance).mean(axis=0) / (a * b).mean(axis=0)
+
+    def rms(factor: NDArray[np.float64] | float) -> NDArray[np.float64]:
+        squares = ((factor * a - first) * (factor * b - second)).mean(axis=0)
+        return 100.0 * np.sqrt(np.maximum(squares, 0.0)) / exitance.mean(axis=0)
+
+    return ViewDependence(int(chosen.sum()), walk.mean(axis=0) / exitance.mean(axis=0), rms(1.0), rms(scale))
