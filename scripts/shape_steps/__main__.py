@@ -84,6 +84,7 @@ def main() -> None:
     sections = {
         "errors": tables.errors_table(measured),
         "noise": tables.noise_table(measured),
+        "surface": tables.surface_table(lit),
         "cost": tables.costs_table(tables.costs(lit[0])),
     }
     for head, (one, exitance) in shown.items():

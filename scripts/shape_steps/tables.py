@@ -194,3 +194,32 @@ def walk_seconds(pictures: Pictures, percent_error: float) -> float:
     first, second = (pictures.images[f"front-walk_{k}"][chosen][:, :3] for k in (1, 2))
     noise = 100.0 * np.sqrt(0.5 * ((first - second) ** 2).mean()) / (0.5 * (first + second)).mean()
     return pictures.seconds["front-walk_1"] * (noise / percent_error) ** 2
+
+
+def surface_table(cases: list[Lit]) -> str:
+    """What the surface does: back-lit exitance by the reference, over that of an index matched surface."""
+    matched = next(one for one in cases if one.case.refractive_index == 1.0)
+    rows = []
+    for other in cases:
+        same = (other.case.head, other.case.light, other.case.medium) == (
+            matched.case.head,
+            matched.case.light,
+            matched.case.medium,
+        )
+        if other is matched or not same:
+            continue
+        chosen = matched.head.ear[matched.head.back_lit(matched.irradiance)]
+        weight = matched.head.vertex_area[chosen]
+        part = (weight / weight.sum())[:, None]
+        mean, base = ((part * one.mean[chosen]).sum(axis=0) for one in (other, matched))
+        product = (other.a - matched.a) * (other.b - matched.b)
+        rms = 100.0 * np.sqrt(np.maximum((part * product[chosen]).sum(axis=0), 0.0)) / mean
+        rows.append(
+            [
+                f"n = {other.case.refractive_index:g}, {other.case.surface}",
+                ", ".join(f"{value:.2f}" for value in mean / base),
+                ", ".join(f"{value:.0f}" for value in rms),
+            ]
+        )
+    heading = ["Surface", "Mean over index matched: R, G, B", "Index matched taken for it, RMS, %"]
+    return page.table(heading, rows)

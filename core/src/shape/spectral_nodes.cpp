@@ -46,49 +46,11 @@ struct Medium {
 /// Plane skin at the two thicknesses: the logarithm of what comes through.
 using TwoLogs = std::array<double, exact_at_mm.size()>;
 
-/// The polynomial through values at the nodes, and straight lines beyond the first and the last.
-class NodeInterpolation {
-  public:
-    explicit NodeInterpolation(std::vector<double> at) : at_(std::move(at)) {}
-
-    /// Weights, segment and whether the place lies between nodes; no matrix yet.
-    SpectralNodes::Sample at(double x) const {
-        SpectralNodes::Sample sample;
-        const auto above = std::upper_bound(at_.begin() + 1, at_.end() - 1, x);
-        sample.segment = static_cast<std::size_t>(above - at_.begin()) - 1;
-        sample.between = x >= at_.front() && x <= at_.back();
-        if (!sample.between) {
-            const double left = at_[sample.segment];
-            const double t = (x - left) / (at_[sample.segment + 1] - left);
-            sample.weight[sample.segment] = 1.0 - t;
-            sample.weight[sample.segment + 1] = t;
-            return sample;
-        }
-        for (std::size_t i = 0; i < at_.size(); ++i) {
-            double weight = 1.0;
-            for (std::size_t j = 0; j < at_.size(); ++j) {
-                if (j != i) weight *= (x - at_[j]) / (at_[i] - at_[j]);
-            }
-            sample.weight[i] = weight;
-        }
-        return sample;
-    }
-
-  private:
-    std::vector<double> at_;
-};
-
 /// Of the logarithm, beyond the first or last node: noise of nodes could make it any.
 constexpr double largest_gain = 2.0;
 
-/// A polynomial may swing between nodes that differ by orders of magnitude: it stays between its neighbors.
-double value_of(const SpectralNodes::Sample& sample, std::span<const double> at_nodes) {
-    double value = 0.0;
-    for (std::size_t i = 0; i < at_nodes.size(); ++i) value += sample.weight[i] * at_nodes[i];
-    if (!sample.between) return value;
-    const auto [low, high] = std::minmax(at_nodes[sample.segment], at_nodes[sample.segment + 1]);
-    return std::clamp(value, low, high);
-}
+/// Below the brightest node's, the least that counts of another one's logarithm.
+constexpr double darkest_log = -1000.0;
 
 /// Logarithm of what is not above 0.
 constexpr double unknown = -std::numeric_limits<double>::infinity();
@@ -216,19 +178,22 @@ SpectralNodes spectral_nodes(const Tissue& tissue, int count) {
     const NodeInterpolation interpolation(at);
     SpectralNodes result{.nodes = {}, .refractive_index = tissue.refractive_index, .samples = {}};
     std::vector<double> factors(spectral_samples, 0.0);
+    std::vector<SpectralSample> samples;
+    samples.reserve(spectral_samples);
     for (std::size_t k = 0; k < spectral_samples; ++k) {
         const double through_thin = skin[k];
         const double through_thick = std::max(skin[spectral_samples + k], darkest);
         if (!(through_thin > darkest)) continue;
         const double x =
             matching_place(interpolation, falls, std::log(through_thin / through_thick), 10.0 * at.back());
-        SpectralNodes::Sample sample = interpolation.at(x);
+        SpectralSample sample = interpolation.at(x);
         factors[k] = std::min(largest_factor, std::exp(std::log(through_thin) - value_of(sample, thin)));
         Spectrum one{};
         one[k] = 1.0;
         sample.matrix = factors[k] * transmission_matrix(one);
-        result.samples.push_back(sample);
+        samples.push_back(sample);
     }
+    result.samples = in_runs(samples, static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < places.size(); ++i) {
         constexpr double smallest_factor = 1e-12;  // of a node behind an epidermis that lets nothing through
         const Place& place = places[i];
@@ -253,10 +218,15 @@ glm::dmat3 SpectralNodes::combine(std::span<const double> exitance_at_nodes) con
     const std::span known = std::span(logs).first(nodes.size());
     glm::dmat3 matrix(0.0);
     if (!fill_unknown(known)) return matrix;
-    const double limit = *std::max_element(known.begin(), known.end()) + largest_gain;
-    for (const Sample& sample : samples) {
-        matrix += std::exp(std::min(value_of(sample, known), limit)) * sample.matrix;
-    }
+    // The brightest node apart, so that single precision holds any light.
+    const double brightest = *std::max_element(known.begin(), known.end());
+    std::array<float, max_count> relative{};
+    for (std::size_t i = 0; i < known.size(); ++i)
+        relative[i] = static_cast<float>(std::max(known[i] - brightest, darkest_log));
+    const std::array<double, 9> sum =
+        sum_samples(samples, std::span(relative).first(known.size()), static_cast<float>(largest_gain));
+    for (int entry = 0; entry < 9; ++entry)
+        matrix[entry / 3][entry % 3] = std::exp(brightest) * sum[static_cast<std::size_t>(entry)];
     return matrix;
 }
 

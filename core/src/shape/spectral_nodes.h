@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "numerics/detail.h"
+#include "shape/spectral_samples.h"
 
 namespace skinglow::detail {
 
@@ -22,7 +22,7 @@ namespace skinglow::detail {
 /// attenuation would be a poorer place: media that share one differ in their albedo, which costs 5 to 20 %.
 struct SpectralNodes {
     static constexpr int min_count = 2;
-    static constexpr int max_count = 8;
+    static constexpr int max_count = max_spectral_nodes;
 
     /// A medium without epidermis. Irradiance times entry_factor enters it, exit_factor of what leaves it is
     /// seen; between the two the flesh scatters isotropically.
@@ -42,14 +42,7 @@ struct SpectralNodes {
     ///        unknown and are taken from the other nodes; 0 for all nodes is no light.
     glm::dmat3 combine(std::span<const double> exitance_at_nodes) const;
 
-    /// How one wavelength comes about from the nodes.
-    struct Sample {
-        std::array<double, max_count> weight{};  ///< of the nodes' logarithms; their sum is 1
-        std::size_t segment = 0;  ///< the nodes `segment` and `segment` + 1 stand around the wavelength ...
-        bool between = true;      ///< ... unless this is false: it is beyond the first or the last
-        glm::dmat3 matrix{0.0};   ///< what light of transmittance 1 contributes, times the epidermis' factor
-    };
-    std::vector<Sample> samples;  ///< per wavelength, without those that skin lets nothing through at
+    SpectralSamples samples;  ///< the wavelengths, without those that skin lets nothing through at
 };
 
 /// Throws std::invalid_argument.
