@@ -19,7 +19,7 @@ constexpr std::uintmax_t max_mesh_bytes = std::uintmax_t{2} << 30U;
 constexpr const char* damaged_mesh_remedy =
     "the file is damaged or was not written to its end; export it anew";
 
-/// Collects the vertices and faces of a file and makes a mesh of them in which each position is one vertex.
+/// Collects the vertices and faces of a file and makes a mesh of them.
 class MeshBuilder {
   public:
     explicit MeshBuilder(const std::filesystem::path& path) : path_(path) {}
@@ -35,8 +35,7 @@ class MeshBuilder {
     std::span<glm::uvec3> add_triangles(std::size_t count);
     void reserve(std::size_t vertices, std::size_t triangles);
 
-    /// The finished mesh: polygons cut into triangles, positions that occur twice joined, vertices of no face
-    /// left out. @throws FileError where there is no face, one has a vertex that does not exist, or a
+    /// The finished mesh: polygons cut into triangles, vertices of no face left out. @throws FileError where there is no face, one has a vertex that does not exist, or a
     /// position is not finite
     TriangleMesh take();
 
@@ -52,7 +51,6 @@ class MeshBuilder {
     [[noreturn]] void refuse_corner(std::uint32_t corner, std::size_t face) const;
     void cut_polygons();
     void drop_unused(const std::vector<std::uint8_t>& used);
-    void join_equal();
 
     const std::filesystem::path& path_;
     std::vector<glm::dvec3> vertices_;

@@ -67,7 +67,7 @@ MeshFile read_stl(const std::filesystem::path& path) {
         refuse_file(path, "has another size than its number of triangles says", damaged_mesh_remedy);
     }
     MeshFile file;
-    file.mesh = builder.take();
+    file.mesh = joined(builder.take());
     return file;
 }
 
