@@ -124,6 +124,11 @@ void MeshBuilder::drop_unused(const std::vector<std::uint8_t>& used) {
     for (glm::uvec3& t : triangles_) t = {new_index[t.x], new_index[t.y], new_index[t.z]};
 }
 
+void refuse_utf16(const std::filesystem::path& path, std::string_view content) {
+    if (!content.starts_with("\xFF\xFE") && !content.starts_with("\xFE\xFF")) return;
+    refuse_file(path, "is text of two bytes a letter (UTF-16)", "save it as UTF-8");
+}
+
 void refuse_group(const std::filesystem::path& path, const std::string& group,
                   const std::vector<std::string>& names) {
     constexpr std::size_t max_named = 20;

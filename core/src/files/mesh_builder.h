@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "files/mesh_file.h"
@@ -62,6 +63,9 @@ class MeshBuilder {
 /// @throws FileError: the file has no such group; it has `names`
 [[noreturn]] void refuse_group(const std::filesystem::path& path, const std::string& group,
                                const std::vector<std::string>& names);
+
+/// @throws FileError where text has a mark of two bytes a letter
+void refuse_utf16(const std::filesystem::path& path, std::string_view content);
 
 /// The readers, by format.
 MeshFile read_ply(const std::filesystem::path& path);
