@@ -40,7 +40,7 @@ TriangleMesh MeshOptions::read() {
     for (const std::string& note : file.notes) tell(path_, note);
     thickness_.unit_mm = unit_mm_.value_or(file.unit_mm);
     sources_ = std::move(file.sources);
-    return std::move(file.mesh);
+    return joined(std::move(file.mesh));
 }
 
 std::vector<double> MeshOptions::measure(const TriangleMesh& mesh) const {

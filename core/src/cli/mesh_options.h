@@ -19,7 +19,7 @@ class MeshOptions {
     void add_to(CLI::App& command, const std::string& mesh_name);
 
     double unit_mm() const { return thickness_.unit_mm; }
-    /// Reads the mesh; the unit is that of its format where --unit does not say. Tells what was left out.
+    /// Reads the mesh; the unit is that of its format where --unit does not say. Each position is one vertex. Tells what was left out.
     /// @throws FileError
     TriangleMesh read();
     /// The files that were read.

@@ -7,7 +7,7 @@ namespace skinglow::detail {
 namespace {
 
 /// Accessors with no bytes behind them are refused beyond this.
-constexpr std::size_t max_zeros = 10'000'000;
+constexpr std::size_t max_zeros = 4'000'000;
 
 struct ComponentType {
     std::size_t code;

@@ -13,6 +13,7 @@ namespace {
 constexpr std::uint32_t glb_magic = 0x46546C67;  // "glTF"
 constexpr std::uint32_t json_chunk = 0x4E4F534A;
 constexpr std::uint32_t binary_chunk = 0x004E4942;
+constexpr std::ptrdiff_t max_json_values = 4'000'000;
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
     return raw_number<std::uint32_t, false>(bytes.data() + at);
@@ -35,6 +36,12 @@ GltfDocument::GltfDocument(const std::filesystem::path& path) : path_(path) {
     content_ = read_whole_file(path, max_mesh_bytes);
     std::string_view text = read_container();
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    // A value of two letters takes some dozen bytes of memory.
+    const auto values = std::count_if(text.begin(), text.end(), [](char letter) {
+        return letter == ',' || letter == '[' || letter == '{';
+    });
+    if (values > max_json_values)
+        refuse("has more than " + std::to_string(max_json_values) + " values", "JSON");
     try {
         json_ = nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& error) {
@@ -77,8 +84,9 @@ std::string_view GltfDocument::read_container() {
 void GltfDocument::check_version() const {
     const auto asset = json_.find("asset");
     const std::string version = asset == json_.end() ? "unknown" : asset->value("version", "unknown");
-    const std::string needed = asset == json_.end() ? version : asset->value("minVersion", version);
-    if (!version.starts_with("2.") || (needed != version && needed != "2.0")) {
+    // A reader of 2.0 reads all of 2.x, unless the file says otherwise.
+    const std::string needed = asset == json_.end() ? version : asset->value("minVersion", "2.0");
+    if (!version.starts_with("2.") || needed != "2.0") {
         refuse_file(path_, "is of glTF version " + (version.starts_with("2.") ? needed : version),
                     "export it as glTF 2.0");
     }
@@ -152,9 +160,15 @@ std::string GltfDocument::read_uri(const std::string& uri, const std::string& wh
     if (uri.starts_with("data:")) {
         const std::size_t comma = uri.find(',');
         if (comma == std::string::npos) refuse("has a data URI without data", where);
-        const std::string_view data = std::string_view(uri).substr(comma + 1);
+        std::string_view data = std::string_view(uri).substr(comma + 1);
         const bool is_base64 = std::string_view(uri).substr(0, comma).ends_with(";base64");
-        if (!(is_base64 ? decode_base64(data, bytes) : decode_percent(data, bytes))) {
+        // Also base64 may have its + and / percent-encoded.
+        std::string decoded;
+        const bool is_plain = data.find('%') == std::string_view::npos;
+        const bool is_decoded = is_plain || decode_percent(data, decoded);
+        if (!is_plain) data = decoded;
+        if (!is_base64) bytes = data;
+        if (!is_decoded || (is_base64 && !decode_base64(data, bytes))) {
             refuse("has a data URI that cannot be decoded", where);
         }
         return bytes;

@@ -13,9 +13,10 @@ namespace {
 
 using nlohmann::json;
 
-/// What instances and nodes may make of the parts of a file, in vertices and triangles; a larger file may
-/// hold more.
-constexpr std::size_t max_expanded = 10'000'000;
+/// What instances and nodes may make of the parts of a file, in vertices and triangles.
+constexpr std::size_t max_expanded = 4'000'000;
+/// A larger file may hold more: no exporter writes a vertex or triangle in fewer bytes.
+constexpr std::size_t min_element_bytes = 4;
 
 /// How a primitive's corners make triangles.
 enum class Mode : std::size_t { triangles = 4, strip = 5, fan = 6 };
@@ -30,7 +31,8 @@ class GltfReader {
     GltfReader(const std::filesystem::path& path, const std::string& group)
         : group_(group), document_(path), nodes_(read_gltf_nodes(document_)), builder_(document_.path()) {
         std::error_code error;
-        max_elements_ = std::max<std::size_t>(max_expanded, std::filesystem::file_size(path, error));
+        max_elements_ =
+            std::max<std::size_t>(max_expanded, std::filesystem::file_size(path, error) / min_element_bytes);
     }
 
     MeshFile read() {

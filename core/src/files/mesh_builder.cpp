@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "files/polygon_cut.h"
-#include "geometry/weld.h"
 #include "numerics/huge_pages.h"
 
 namespace skinglow::detail {
@@ -48,7 +47,6 @@ TriangleMesh MeshBuilder::take() {
     const std::vector<std::uint8_t> used = used_vertices();
     cut_polygons();
     drop_unused(used);
-    join_equal();
     return {std::move(vertices_), std::move(triangles_)};
 }
 
@@ -126,13 +124,9 @@ void MeshBuilder::drop_unused(const std::vector<std::uint8_t>& used) {
     for (glm::uvec3& t : triangles_) t = {new_index[t.x], new_index[t.y], new_index[t.z]};
 }
 
-void MeshBuilder::join_equal() {
-    const std::vector<Repeated> repeated = repeated_entries<glm::dvec3>(vertices_);
-    if (repeated.empty()) return;
-    const Weld welded = keep_once(vertices_.size(), repeated);
-    for (glm::uvec3& t : triangles_) t = {welded.index[t.x], welded.index[t.y], welded.index[t.z]};
-    for (std::size_t i = 0; i < welded.first.size(); ++i) vertices_[i] = vertices_[welded.first[i]];
-    vertices_.resize(welded.first.size());
+void refuse_utf16(const std::filesystem::path& path, std::string_view content) {
+    if (!content.starts_with("\xFF\xFE") && !content.starts_with("\xFE\xFF")) return;
+    refuse_file(path, "is text of two bytes a letter (UTF-16)", "save it as UTF-8");
 }
 
 void refuse_group(const std::filesystem::path& path, const std::string& group,

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "files/mesh_file.h"
@@ -19,7 +20,7 @@ constexpr std::uintmax_t max_mesh_bytes = std::uintmax_t{2} << 30U;
 constexpr const char* damaged_mesh_remedy =
     "the file is damaged or was not written to its end; export it anew";
 
-/// Collects the vertices and faces of a file and makes a mesh of them in which each position is one vertex.
+/// Collects the vertices and faces of a file and makes a mesh of them.
 class MeshBuilder {
   public:
     explicit MeshBuilder(const std::filesystem::path& path) : path_(path) {}
@@ -35,8 +36,7 @@ class MeshBuilder {
     std::span<glm::uvec3> add_triangles(std::size_t count);
     void reserve(std::size_t vertices, std::size_t triangles);
 
-    /// The finished mesh: polygons cut into triangles, positions that occur twice joined, vertices of no face
-    /// left out. @throws FileError where there is no face, one has a vertex that does not exist, or a
+    /// The finished mesh: polygons cut into triangles, vertices of no face left out. @throws FileError where there is no face, one has a vertex that does not exist, or a
     /// position is not finite
     TriangleMesh take();
 
@@ -52,7 +52,6 @@ class MeshBuilder {
     [[noreturn]] void refuse_corner(std::uint32_t corner, std::size_t face) const;
     void cut_polygons();
     void drop_unused(const std::vector<std::uint8_t>& used);
-    void join_equal();
 
     const std::filesystem::path& path_;
     std::vector<glm::dvec3> vertices_;
@@ -64,6 +63,9 @@ class MeshBuilder {
 /// @throws FileError: the file has no such group; it has `names`
 [[noreturn]] void refuse_group(const std::filesystem::path& path, const std::string& group,
                                const std::vector<std::string>& names);
+
+/// @throws FileError where text has a mark of two bytes a letter
+void refuse_utf16(const std::filesystem::path& path, std::string_view content);
 
 /// The readers, by format.
 MeshFile read_ply(const std::filesystem::path& path);

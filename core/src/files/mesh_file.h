@@ -13,19 +13,24 @@ namespace skinglow::detail {
 
 /// What a mesh file says.
 struct MeshFile {
-    TriangleMesh mesh;                           ///< each position is one vertex; in the file's unit and axes
+    TriangleMesh mesh;                           ///< in the file's unit, axes and order of vertices
     double unit_mm = 1.0;                        ///< length of the format's unit; 1 where the format has none
     std::vector<std::string> notes;              ///< what was left out, for people: "... is not read"
     std::vector<std::filesystem::path> sources;  ///< all files that were read
 };
 
 /// Reads OBJ, PLY, STL, glTF and GLB; all objects with their placement in the scene, polygons cut into
-/// triangles, points and lines left out. docs/files.md has what is read of each format.
+/// triangles, points and lines and vertices of no face left out. STL, which repeats vertices for each triangle, is
+/// read joined. docs/files.md has what is read of each format.
 /// @param group  only what has this name (an OBJ's group or object, a glTF's node or mesh); empty: everything
 /// @throws FileError where the file is of another format, unreadable, damaged or larger than 2 GiB,
 ///         has no such group (naming those that it has), no triangle, an index that points nowhere, a
 ///         position that is not finite, or demands an extension that is not read
 MeshFile read_mesh(const std::filesystem::path& path, const std::string& group = {});
+
+/// The mesh with each position as one vertex, in the order of their first: without the seams that texture
+/// coordinates and normals make.
+TriangleMesh joined(TriangleMesh mesh);
 
 /// Writes thickness, one number in mm per vertex, by extension, whole or not at all:
 /// .csv (vertex,x,y,z,thickness_mm, every digit) or .ply (binary, positions as float64, vertex property

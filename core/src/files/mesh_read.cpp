@@ -1,6 +1,8 @@
 #include <system_error>
+#include <utility>
 
 #include "files/mesh_builder.h"
+#include "geometry/weld.h"
 
 namespace skinglow::detail {
 
@@ -32,6 +34,18 @@ MeshFile read_mesh(const std::filesystem::path& path, const std::string& group) 
     }
     file.sources.insert(file.sources.begin(), path);
     return file;
+}
+
+TriangleMesh joined(TriangleMesh mesh) {
+    const std::vector<Repeated> repeated = repeated_entries<glm::dvec3>(mesh.vertices());
+    if (repeated.empty()) return mesh;
+    const Weld welded = keep_once(mesh.vertices().size(), repeated);
+    std::vector<glm::dvec3> vertices;
+    vertices.reserve(welded.first.size());
+    for (const std::uint32_t i : welded.first) vertices.push_back(mesh.vertices()[i]);
+    std::vector<glm::uvec3> triangles = mesh.triangles();
+    for (glm::uvec3& t : triangles) t = {welded.index[t.x], welded.index[t.y], welded.index[t.z]};
+    return {std::move(vertices), std::move(triangles)};
 }
 
 }  // namespace skinglow::detail

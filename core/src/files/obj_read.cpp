@@ -23,6 +23,8 @@ class ObjReader {
     MeshFile read() {
         const std::string content = read_whole_file(path_, max_mesh_bytes);
         rest_ = content;
+        refuse_utf16(path_, content);
+        if (content.find('\n') == std::string::npos) line_end_ = '\r';
         if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);
         while (!rest_.empty()) read_line(take_line());
         if (!group_.empty() && !found_group_) refuse_group(path_, group_, names_);
@@ -68,7 +70,7 @@ class ObjReader {
     }
 
     std::string_view take_physical_line() {
-        const std::size_t length = std::min(rest_.find('\n'), rest_.size());
+        const std::size_t length = std::min(rest_.find(line_end_), rest_.size());
         std::string_view line = rest_.substr(0, length);
         rest_.remove_prefix(std::min(length + 1, rest_.size()));
         if (line.ends_with('\r')) line.remove_suffix(1);
@@ -159,6 +161,7 @@ class ObjReader {
     MeshBuilder builder_;
     std::string_view rest_;
     std::string joined_;
+    char line_end_ = '\n';  // \r alone in files of old Macs
     std::size_t line_ = 0;
     std::size_t first_line_ = 0;
     bool in_object_ = false;

@@ -110,6 +110,10 @@ class HeaderReader {
     void read_element() {
         PlyElement element;
         element.name = take_word();
+        const auto& known = header_.elements;
+        if (std::any_of(known.begin(), known.end(),
+                        [&](const auto& each) { return each.name == element.name; }))
+            refuse("has the element " + element.name + " a second time");
         const std::string_view count = take_word();
         const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
         if (error != std::errc() || end != count.data() + count.size())

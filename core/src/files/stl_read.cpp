@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -25,21 +27,35 @@ void read_binary(std::string_view content, MeshBuilder& builder) {
     }
 }
 
+/// In any mixture of capital and small letters.
+bool is_word(std::string_view word, std::string_view lower) {
+    return std::equal(word.begin(), word.end(), lower.begin(), lower.end(), [](unsigned char a, char b) {
+        return std::tolower(a) == static_cast<unsigned char>(b);
+    });
+}
+
+/// Text begins with "solid"; so do binary files of some programs, but with a zero byte soon after.
+bool is_text(std::string_view content) {
+    const std::string_view start = content.substr(0, 1024);
+    const std::size_t first = std::min(start.find_first_not_of(" \t\r\n"), start.size());
+    return is_word(start.substr(first, 5), "solid") && start.find('\0') == std::string_view::npos;
+}
+
 void read_text(const std::filesystem::path& path, std::string_view content, MeshBuilder& builder) {
     WordReader words(path, content);
     std::uint32_t count = 0;
     bool ended = false;
     for (std::string_view word = words.take(); !word.empty(); word = words.take()) {
-        ended = word == "endsolid";
-        if (word == "solid" || word == "endsolid") {
+        ended = is_word(word, "endsolid");
+        if (is_word(word, "solid") || ended) {
             words.skip_line();  // a name, of any words
-        } else if (word == "vertex") {
+        } else if (is_word(word, "vertex")) {
             if (count >= 3) words.refuse("has a facet of more than three corners");
             glm::dvec3 position;
             for (int i = 0; i < 3; ++i) position[i] = words.take_number();
             builder.add_vertex(position);
             ++count;
-        } else if (word == "endloop") {
+        } else if (is_word(word, "endloop")) {
             if (count != 3) words.refuse("has a facet of fewer than three corners");
             const auto end = static_cast<std::uint32_t>(builder.vertex_count());
             builder.add_face(std::array{end - 3, end - 2, end - 1});
@@ -53,21 +69,24 @@ void read_text(const std::filesystem::path& path, std::string_view content, Mesh
 
 MeshFile read_stl(const std::filesystem::path& path) {
     const std::string content = read_whole_file(path, max_mesh_bytes);
+    refuse_utf16(path, content);
+    std::string_view text = content;
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     MeshBuilder builder(path);
     std::size_t triangles = 0;
     if (content.size() >= header_bytes) {
         triangles = static_cast<std::size_t>(load_number<std::uint32_t, false>(content.data() + 80));
     }
-    // Files of both kinds begin with "solid"; a binary one has the size that its count says.
+    // A binary file has the size that its count says.
     if (content.size() >= header_bytes && content.size() == header_bytes + triangles * triangle_bytes) {
         read_binary(content, builder);
-    } else if (content.starts_with("solid")) {
-        read_text(path, content, builder);
+    } else if (is_text(text)) {
+        read_text(path, text, builder);
     } else {
         refuse_file(path, "has another size than its number of triangles says", damaged_mesh_remedy);
     }
     MeshFile file;
-    file.mesh = builder.take();
+    file.mesh = joined(builder.take());
     return file;
 }
 

@@ -10,14 +10,49 @@
 
 namespace skinglow::detail {
 
+namespace {
+
+/// Bytes of the UTF-8 character that the text starts with; 0 where it starts with none.
+std::size_t character_length(std::string_view text) {
+    const auto lead = static_cast<unsigned char>(text.front());
+    const std::size_t length = lead < 0x80U       ? 1
+                               : lead >> 5U == 6  ? 2
+                               : lead >> 4U == 14 ? 3
+                               : lead >> 3U == 30 ? 4
+                                                  : 0;
+    if (length > text.size() || lead == 0xC0U || lead == 0xC1U || lead > 0xF4U) return 0;
+    for (const char next : text.substr(1, length - (length > 0 ? 1 : 0))) {
+        if ((static_cast<unsigned char>(next) & 0xC0U) != 0x80U) return 0;
+    }
+    return length;
+}
+
+/// What a damaged file holds may be anything; a message is one line of text.
+std::string printable(std::string_view text) {
+    std::string result;
+    while (!text.empty()) {
+        const std::size_t length = character_length(text);
+        const auto first = static_cast<unsigned char>(text.front());
+        if (length == 0 || first < 0x20U || first == 0x7FU) {
+            result += '?';
+        } else {
+            result += text.substr(0, length);
+        }
+        text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return result;
+}
+
+}  // namespace
+
 void refuse_file(const std::filesystem::path& path, std::string_view what, std::string_view remedy,
                  std::string_view where) {
     std::string message = "file " + path.string() + ": ";
     if (!where.empty()) {
-        message += where;
+        message += printable(where);
         message += ": ";
     }
-    message += what;
+    message += printable(what);
     message += ": ";
     message += remedy;
     throw FileError(message);
