@@ -13,7 +13,6 @@
 #include <stdexcept>
 #include <thread>
 
-#include "files/output_guard.h"
 #include "rig_files/file_error.h"
 #include "scratch_folder.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "files/transfer_function.h"
+#include "files/color_encoding.h"
 #include "rig_files/file_error.h"
 #include "scratch_folder.h"
 #include "test_image.h"

@@ -73,37 +73,57 @@ TEST(BaseLutFile, AxisIsAskedElseTheFilesElseTheDefaultAndSaid) {
                                           {"max_thickness_mm is -4"});
 }
 
-TEST(BaseLutFile, MatricesRoundTripExactlyInFloat32) {
+const std::vector<std::string> matrix_channels = {"M00", "M01", "M02", "M10", "M11",
+                                                  "M12", "M20", "M21", "M22"};
+
+void write_matrices(const std::filesystem::path& path, const std::vector<glm::dmat3>& matrices,
+                    const std::string& max_thickness_mm) {
+    std::vector<float> values;
+    for (const glm::dmat3& matrix : matrices) {
+        for (int i = 0; i < 9; ++i) values.push_back(static_cast<float>(matrix[i % 3][i / 3]));
+    }
+    write_test_image(path, {static_cast<int>(matrices.size()),
+                            1,
+                            matrix_channels,
+                            values,
+                            OIIO::TypeFloat,
+                            {{"skinglow:table", "base"}, {"skinglow:max_thickness_mm", max_thickness_mm}}});
+}
+
+TEST(BaseLutFile, MatricesAreReadExactlyInFloat32) {
     const ScratchFolder folder;
     std::vector<glm::dmat3> matrices(300);
     for (std::size_t i = 0; i < matrices.size(); ++i) {
         for (int column = 0; column < 3; ++column) {
             for (int row = 0; row < 3; ++row) {
-                // Unlike in every place, so that a swapped row and column shows; float32, so that the trip is
+                // Unlike everywhere, so that a swapped row and column shows; float32, so that the trip is
                 // exact.
                 matrices[i][column][row] =
                     static_cast<float>(0.01 * static_cast<double>(i) + 0.1 * column - 0.037 * row);
             }
         }
     }
-    const BaseLut base(matrices, 6.25);
-    write_base_lut(folder / "m.exr", base);
+    write_matrices(folder / "m.exr", matrices, "6.25");
     const BaseLutFile file = read_base_lut(folder / "m.exr");
     EXPECT_EQ(file.base.axis().max_thickness_mm(), 6.25);
     ASSERT_EQ(file.base.size(), 300U);
     for (std::size_t i = 0; i < 300; ++i) ASSERT_EQ(file.base.matrices()[i], matrices[i]) << i;
     EXPECT_TRUE(file.notes.empty());
-    expect_refused<FileError>([&] { write_base_lut(folder / "m.png", base); }, {"m.png", "name it .exr"});
 }
 
 TEST(BaseLutFile, ChannelMijTakesChannelJToChannelI) {
     const ScratchFolder folder;
     glm::dmat3 matrix(0.0);
     matrix[2][0] = 0.5;  // GLM: column 2, row 0: blue light comes through as red
-    write_base_lut(folder / "m.exr", BaseLut({matrix}, 1.0));
-    const PixelByChannel pixel = read_first_pixel(folder / "m.exr");
-    EXPECT_EQ(pixel.at("M02"), 0.5F);
-    EXPECT_EQ(pixel.at("M20"), 0.0F);
+    write_matrices(folder / "m.exr", {matrix}, "1");
+    EXPECT_EQ(read_first_pixel(folder / "m.exr").at("M02"), 0.5F);
+    EXPECT_EQ(read_base_lut(folder / "m.exr").base.matrices()[0], matrix);
+}
+
+TEST(BaseLutFile, RefusesMatricesInSeveralRows) {
+    const ScratchFolder folder;
+    write_test_image(folder / "m.exr", {1, 2, matrix_channels, std::vector<float>(18, 0.5F)});
+    expect_refused<FileError>([&] { read_base_lut(folder / "m.exr"); }, {"m.exr", "2 rows", "has one"});
 }
 
 TEST(BaseLutFile, RefusesNegativeBrightnessAndTooWideImages) {

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "files/image_file.h"
-#include "files/lut_preview.h"
 #include "rig_files/file_error.h"
 #include "scratch_folder.h"
 #include "test_image.h"

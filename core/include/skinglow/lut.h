@@ -91,7 +91,7 @@ class BaseLut {
 /// in column j over the largest number of column j, or over 1e-6 where skin lets even less through:
 ///     max over entries and j of  max_i |M_ij - exact_ij| / max(max_i |exact_ij|, 1e-6).
 /// So deep red skin has as many right digits as thin skin, and so has the little that blue light brings
-/// through. Exact means: streams without end.
+/// through. Exact means: in the limit of infinitely many streams.
 struct SkinLutReport {
     int streams = 0;             ///< directions per hemisphere
     double estimated_error = 0;  ///< bound on the error, from that of random skins at these streams
@@ -127,8 +127,11 @@ SkinLut base_lut_report(const Tissue& tissue, std::size_t size = default_lut_siz
 
 /// The same table with as many streams as the caller says: what base_lut is measured by.
 /// Throws std::invalid_argument.
-/// @param tissue, size, max_thickness_mm, threads as for base_lut
+/// @param tissue as for base_lut
+/// @param size as for LutAxis
+/// @param max_thickness_mm as for LutAxis
 /// @param streams as for slab
+/// @param threads 0: one for each processor
 BaseLut reference_lut(const Tissue& tissue, std::size_t size, double max_thickness_mm, int streams,
                       int threads = 0);
 
@@ -162,8 +165,9 @@ constexpr glm::dvec3 paper_blood_weight{1.8, 0.5, 0.4};
 /// @param weight linear Rec.709, finite
 std::vector<glm::dvec3> recolor(const BaseLut& base, const glm::dvec3& weight);
 
-/// The same into memory of the caller's, without allocation.
-/// @param base, weight as above
+/// The same into the caller's memory; allocates nothing.
+/// @param base the table
+/// @param weight linear Rec.709, finite
 /// @param out exactly as many entries as the base
 void recolor(const BaseLut& base, const glm::dvec3& weight, std::span<glm::dvec3> out);
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-/// How much of each light arrives at a surface, with other meshes in the way.
+/// How much of each light arrives at a surface past other meshes.
 ///
 /// @code
 /// const std::vector<skinglow::MeshView> meshes = {skin, hat};

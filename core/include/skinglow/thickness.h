@@ -22,7 +22,7 @@ struct ThicknessOptions {
     double cone_half_angle = std::numbers::pi / 4.0;  ///< between axis and rim of the cone, radians, 0 to 1.5
     /// Smallest fraction of a uniform sky's light, 0 to 1, that a far side must receive for a ray to end
     /// there. What receives less (the mouth, the eye sockets) is dark: no light comes in, so rays pass it as
-    /// if it were flesh. 0: every way out counts, also into a closed cavity. For a head 0.1 serves.
+    /// if it were flesh. 0: every exit counts, also into a closed cavity. For a head 0.1 serves.
     double min_sky_visibility = 0.0;
     int threads = 0;  ///< 0: one for each processor. The result does not depend on it.
 };
@@ -56,7 +56,7 @@ class ThicknessCancelled : public std::runtime_error {
 /// - Outward is where the winding (counter-clockwise) says. A mesh of negative volume is flipped as a whole.
 /// - The surfaces of a shell must face away from the wall between them, the inner one into the cavity. A
 ///   closed surface that faces outwards within another one is a part of the body; so are bodies that touch.
-/// - Where no ray finds a way out (a plane, an open hem, a vertex without triangles) the value is the
+/// - Where no ray finds an exit (a plane, an open hem, a vertex without triangles) the value is the
 ///   bounding box's diagonal: thicker than anything in the mesh. No value is above that or below 0.
 /// - Where the body has a sharp edge the normal is the mean of both sides', and the value up to 27 % too
 ///   large (the corner of a cube).
@@ -75,7 +75,7 @@ std::vector<double> thickness(const MeshView& mesh, const ThicknessOptions& opti
 struct ThicknessReport {
     std::vector<double> mm;  ///< one per vertex, as thickness() gives it
     std::vector<std::uint8_t>
-        no_far_side;  ///< one per vertex: 1 where no ray found a way out, as of open, doubled or
+        no_far_side;  ///< one per vertex: 1 where no ray found an exit, as of open, doubled or
                       ///< flat meshes; the thickness is the box's diagonal there
 
     /// Fraction of the vertices that found no far side; 0 for an empty mesh.

@@ -3,8 +3,8 @@
 
 #include "cli/commands.h"
 #include "cli/output_text.h"
+#include "files/atomic_file.h"
 #include "files/image_compare.h"
-#include "files/output_guard.h"
 #include "numerics/argument_check.h"
 
 namespace skinglow::cli {

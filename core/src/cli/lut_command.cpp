@@ -10,9 +10,8 @@
 #include "cli/rig_options.h"
 #include "cli/skin_options.h"
 #include "cli/table_options.h"
+#include "files/atomic_file.h"
 #include "files/lut_file.h"
-#include "files/lut_preview.h"
-#include "files/output_guard.h"
 #include "numerics/argument_check.h"
 
 namespace skinglow::cli {
@@ -85,15 +84,12 @@ LutMode chosen_mode(const Options& options) {
     return LutMode::physical;
 }
 
-LutTable make_table(const Options& options, LutMode mode) {
-    if (mode == LutMode::existing) return existing_table(options);
-    return mode == LutMode::physical ? physical_table(options) : paper_table(options);
-}
-
 void run(const Options& options) {
     const LutMode mode = chosen_mode(options);
     refuse_overwriting({options.output, options.preview}, {options.rig.path(), options.table.base_path()});
-    LutTable table = make_table(options, mode);
+    LutTable table = mode == LutMode::existing   ? existing_table(options)
+                     : mode == LutMode::physical ? physical_table(options)
+                                                 : paper_table(options);
     table.record.mode = mode;
     const PngOptions png{options.bits, options.encoding == "linear" ? Encoding::linear : Encoding::srgb};
     const LutWriteReport report = write_lut(options.output, table, png);

@@ -16,7 +16,6 @@
 #include "cli/rig_options.h"
 #include "cli/table_options.h"
 #include "files/atomic_file.h"
-#include "files/output_guard.h"
 #include "numerics/argument_check.h"
 #include "rig_files/file_error.h"
 

@@ -3,7 +3,7 @@
 
 #include "cli/commands.h"
 #include "cli/rig_options.h"
-#include "files/output_guard.h"
+#include "files/atomic_file.h"
 
 namespace skinglow::cli {
 namespace {

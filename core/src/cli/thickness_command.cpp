@@ -5,7 +5,7 @@
 #include "cli/commands.h"
 #include "cli/mesh_options.h"
 #include "cli/output_text.h"
-#include "files/output_guard.h"
+#include "files/atomic_file.h"
 
 namespace skinglow::cli {
 namespace {

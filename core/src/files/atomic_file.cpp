@@ -4,12 +4,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
+#include <mutex>
 #include <string>
 #include <system_error>
 
-#include "files/deferred_signals.h"
 #include "rig_files/file_error.h"
 
 namespace skinglow::detail {
@@ -35,33 +37,56 @@ fs::path temporary_name(const fs::path& target) {
     return folder_of(target) / (".skinglow-" + std::to_string(::getpid()) + "-" + std::to_string(++calls));
 }
 
-class Descriptor {
-  public:
-    explicit Descriptor(int number) : number_(number) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    int number() const { return number_; }
-
-  private:
-    int number_;
+/// Does something where the scope ends.
+template <typename Action>
+struct AtEnd {
+    Action action;
+    ~AtEnd() { action(); }
 };
+template <typename Action>
+AtEnd(Action) -> AtEnd<Action>;
 
-/// Takes a file or folder away at its end, unless that was renamed.
-class Cleanup {
+constexpr std::array signals = {SIGINT, SIGTERM, SIGHUP};
+
+// Handlers belong to the process. NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables)
+std::mutex signal_mutex;
+int deferring = 0;
+std::array<struct sigaction, signals.size()> handlers_before{};
+
+// A handler may touch nothing else; signals come on any thread, so that blocking them on one does not do.
+volatile std::sig_atomic_t signal_waiting = 0;
+// NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
+
+extern "C" void note_signal(int number) {
+    signal_waiting = number;
+}
+
+/// While it lives, requests to end (SIGINT, SIGTERM, SIGHUP) wait; then they take effect. May live on many threads at
+/// once.
+class DeferredSignals {
   public:
-    explicit Cleanup(fs::path path) : path_(std::move(path)) {}
-    Cleanup(const Cleanup&) = delete;
-    Cleanup& operator=(const Cleanup&) = delete;
-    ~Cleanup() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
+    DeferredSignals() {
+        const std::lock_guard lock(signal_mutex);
+        if (deferring++ > 0) return;
+        signal_waiting = 0;
+        for (std::size_t i = 0; i < signals.size(); ++i) {
+            ::sigaction(signals[i], nullptr, &handlers_before[i]);
+            if (handlers_before[i].sa_handler == SIG_IGN) continue;  // as under nohup
+            struct sigaction action {};
+            action.sa_handler = note_signal;
+            action.sa_flags = SA_RESTART;
+            ::sigaction(signals[i], &action, nullptr);
+        }
     }
-
-  private:
-    fs::path path_;
+    ~DeferredSignals() {
+        const std::lock_guard lock(signal_mutex);
+        if (--deferring > 0) return;
+        for (std::size_t i = 0; i < signals.size(); ++i)
+            ::sigaction(signals[i], &handlers_before[i], nullptr);
+        if (signal_waiting != 0) ::raise(signal_waiting);
+    }
+    DeferredSignals(const DeferredSignals&) = delete;
+    DeferredSignals& operator=(const DeferredSignals&) = delete;
 };
 
 /// @param path  what messages name
@@ -81,26 +106,29 @@ void flush(int descriptor, const fs::path& path) {
 }
 
 void flush_folder(const fs::path& folder, const fs::path& path) {
-    const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (descriptor.number() < 0) refuse_write(path, errno, folder_remedy);
-    flush(descriptor.number(), path);
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) refuse_write(path, errno, folder_remedy);
+    const AtEnd closing{[=] { ::close(descriptor); }};
+    flush(descriptor, path);
 }
 
 void write_named(const fs::path& name, std::string_view bytes, const fs::path& path) {
-    const Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, ordinary_file));
-    if (file.number() < 0) refuse_write(path, errno, folder_remedy);
-    write_all(file.number(), bytes, path);
-    flush(file.number(), path);
+    const int file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, ordinary_file);
+    if (file < 0) refuse_write(path, errno, folder_remedy);
+    const AtEnd closing{[=] { ::close(file); }};
+    write_all(file, bytes, path);
+    flush(file, path);
 }
 
 /// Into a file without a name, which nothing is left of whatever happens, and then gives it one. False where
 /// the file system has no such files.
 bool write_unnamed(const fs::path& name, std::string_view bytes, const fs::path& path) {
-    const Descriptor file(::open(folder_of(name).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, ordinary_file));
-    if (file.number() < 0) return false;
-    write_all(file.number(), bytes, path);
-    flush(file.number(), path);
-    const std::string link = "/proc/self/fd/" + std::to_string(file.number());
+    const int file = ::open(folder_of(name).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, ordinary_file);
+    if (file < 0) return false;
+    const AtEnd closing{[=] { ::close(file); }};
+    write_all(file, bytes, path);
+    flush(file, path);
+    const std::string link = "/proc/self/fd/" + std::to_string(file);
     return ::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
 }
 
@@ -118,6 +146,18 @@ void keep_others(const fs::path& old_folder, const fs::path& new_folder,
         swap_names(entry.path(), new_folder / name,
                    RENAME_NOREPLACE);  // fails where the new one has it: right
     }
+}
+
+/// One name for a file that need not be there yet.
+fs::path resolved(const fs::path& path) {
+    std::error_code ignored;
+    return fs::weakly_canonical(follow_links(path), ignored);
+}
+
+bool is_same(const fs::path& a, const fs::path& b) {
+    std::error_code error;
+    if (fs::equivalent(a, b, error)) return true;
+    return resolved(a) == resolved(b);
 }
 
 }  // namespace
@@ -139,7 +179,7 @@ void write_atomically(const fs::path& path, std::string_view bytes) {
     }
     const DeferredSignals deferred;
     const fs::path name = temporary_name(target);
-    const Cleanup cleanup(name);
+    const AtEnd cleanup{[&] { fs::remove_all(name, ignored); }};  // unless it was renamed
     if (!write_unnamed(name, bytes, path)) write_named(name, bytes, path);
     if (::rename(name.c_str(), target.c_str()) != 0) refuse_write(path, errno, folder_remedy);
     flush_folder(folder_of(target), path);
@@ -161,7 +201,7 @@ void replace_folder(const fs::path& path, const std::map<std::string, std::strin
     fs::create_directories(target.parent_path(), ignored);
     const DeferredSignals deferred;
     const fs::path fresh = temporary_name(target);
-    const Cleanup cleanup(fresh);
+    const AtEnd cleanup{[&] { fs::remove_all(fresh, ignored); }};  // the old folder, or what was not finished
     if (::mkdir(fresh.c_str(), ordinary_folder) != 0) {
         refuse_file(path, "cannot be made: " + system_error_text(errno),
                     "choose a folder that you may write to");
@@ -183,6 +223,21 @@ void replace_folder(const fs::path& path, const std::map<std::string, std::strin
             refuse_write(path, errno, folder_remedy);
     }
     flush_folder(target.parent_path(), path);
+}
+
+void refuse_overwriting(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        if (outputs[i].empty()) continue;
+        for (const fs::path& input : inputs) {
+            if (input.empty() || !is_same(outputs[i], input)) continue;
+            refuse_file(outputs[i], "is to be written and is read as " + input.string(),
+                        "give the output another name");
+        }
+        for (std::size_t k = 0; k < i; ++k) {
+            if (outputs[k].empty() || !is_same(outputs[i], outputs[k])) continue;
+            refuse_file(outputs[i], "is to be written twice", "give each output a name of its own");
+        }
+    }
 }
 
 }  // namespace skinglow::detail

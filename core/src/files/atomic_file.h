@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "numerics/detail.h"
 
@@ -29,5 +30,11 @@ void replace_folder(const std::filesystem::path& path, const std::map<std::strin
 
 /// Where the links lead, also where nothing is yet: std::filesystem::canonical wants a file at the end.
 std::filesystem::path follow_links(std::filesystem::path path);
+
+/// Refuses to write over what was read: an output that is one of the inputs by any path, link or hard link,
+/// or twice the same output. Empty paths are passed over.
+/// @throws FileError naming the output
+void refuse_overwriting(const std::vector<std::filesystem::path>& outputs,
+                        const std::vector<std::filesystem::path>& inputs);
 
 }  // namespace skinglow::detail

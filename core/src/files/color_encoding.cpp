@@ -32,6 +32,24 @@ glm::dmat3 adapt_white(const glm::dvec3& from, const glm::dvec3& to) {
 
 }  // namespace
 
+double srgb_to_linear(double encoded) {
+    const double size = std::abs(encoded);
+    const double linear = size <= 0.04045 ? size / 12.92 : std::pow((size + 0.055) / 1.055, 2.4);
+    return std::copysign(linear, encoded);
+}
+
+double linear_to_srgb(double linear) {
+    const double size = std::abs(linear);
+    const double encoded = size <= 0.0031308 ? size * 12.92 : 1.055 * std::pow(size, 1.0 / 2.4) - 0.055;
+    return std::copysign(encoded, linear);
+}
+
+unsigned quantize(double linear, Encoding encoding, unsigned levels) {
+    const double clamped = std::clamp(linear, 0.0, 1.0);
+    const double encoded = encoding == Encoding::srgb ? linear_to_srgb(clamped) : clamped;
+    return static_cast<unsigned>(std::lround(encoded * levels));
+}
+
 std::optional<glm::dmat3> to_rec709(const Chromaticities& from) {
     constexpr double rounding = 1e-3;  // files have three to five digits
     const bool same = std::equal(from.begin(), from.end(), rec709.begin(),

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numbers>
 #include <utility>
 
+#include "files/atomic_file.h"
+#include "files/image_output.h"
 #include "numerics/argument_check.h"
 #include "rig_files/file_error.h"
 
@@ -33,15 +37,15 @@ void mark_edges(const std::vector<float>& values, int width, int height, std::ve
     };
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            float least = at(x, y);
-            float most = least;
+            float min = at(x, y);
+            float max = min;
             for (int j = std::max(0, y - 1); j <= std::min(height - 1, y + 1); ++j) {
                 for (int i = std::max(0, x - 1); i <= std::min(width - 1, x + 1); ++i) {
-                    least = std::min(least, at(i, j));
-                    most = std::max(most, at(i, j));
+                    min = std::min(min, at(i, j));
+                    max = std::max(max, at(i, j));
                 }
             }
-            if (most - least > edge_tolerance) {
+            if (max - min > edge_tolerance) {
                 edge[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                      static_cast<std::size_t>(x)] = 1;
             }
@@ -145,6 +149,44 @@ ImageComparison compare_images(const std::filesystem::path& first_path,
     comparison.total =
         make_difference(squares[0] + squares[1] + squares[2], worst, 3.0 * count, options.peak);
     return comparison;
+}
+
+std::array<double, 3> heat_color(double value) {
+    constexpr double start = 0.5;
+    constexpr double rotations = -1.5;
+    const double brightness = std::clamp(value, 0.0, 1.0);
+    const double angle = 2.0 * std::numbers::pi * (start / 3.0 + 1.0 + rotations * brightness);
+    const double amplitude = brightness * (1.0 - brightness) / 2.0;
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    // Green 2011, Eq. 2: directions of constant perceived brightness around the gray diagonal.
+    return {std::clamp(brightness + amplitude * (-0.14861 * c + 1.78277 * s), 0.0, 1.0),
+            std::clamp(brightness + amplitude * (-0.29227 * c - 0.90649 * s), 0.0, 1.0),
+            std::clamp(brightness + amplitude * (1.97294 * c), 0.0, 1.0)};
+}
+
+double write_heat_map(const std::filesystem::path& path, const ImageComparison& comparison,
+                      std::optional<double> scale) {
+    if (small_extension(path) != ".png") refuse_file(path, "cannot hold a heat map", "name it .png");
+    const double largest = comparison.total.max > 0.0 ? comparison.total.max : 1.0;
+    const double white = scale ? require_positive("heat map scale", *scale) : largest;
+    std::vector<std::uint8_t> pixels;
+    pixels.reserve(comparison.error.size() * 4);
+    for (const float error : comparison.error) {
+        if (error < 0.0F) {
+            pixels.insert(pixels.end(), {0, 0, 0, 0});
+            continue;
+        }
+        for (const double channel : heat_color(error / white)) {
+            pixels.push_back(static_cast<std::uint8_t>(std::lround(channel * 255.0)));
+        }
+        pixels.push_back(255);
+    }
+    OIIO::ImageSpec spec(comparison.width, comparison.height, 4, OIIO::TypeUInt8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    write_atomically(path,
+                     image_bytes(path, spec, {{"skinglow:heat_map_white", to_text(white)}}, pixels.data()));
+    return white;
 }
 
 }  // namespace skinglow::detail

@@ -8,7 +8,6 @@
 #include "files/color_encoding.h"
 #include "files/image_input.h"
 #include "files/image_layers.h"
-#include "files/transfer_function.h"
 #include "rig_files/file_error.h"
 
 namespace skinglow::detail {
@@ -90,12 +89,6 @@ void check_number_type(const ImageInput& input, const ColorChannels& color) {
     }
 }
 
-void multiply_by_alpha(LinearImage& image) {
-    for (std::size_t i = 0; i < image.alpha.size(); ++i) {
-        for (std::size_t channel = 0; channel < 3; ++channel) image.rgb[3 * i + channel] *= image.alpha[i];
-    }
-}
-
 /// Puts the data window into the whole picture, black around it.
 template <int channels>
 std::vector<float> in_full_window(const std::vector<float>& data, const OIIO::ImageSpec& spec) {
@@ -162,7 +155,9 @@ LinearImage read_image(const std::filesystem::path& path) {
         for (const std::string& name : color.others) names += (names.empty() ? "" : ", ") + name;
         image.notes.push_back("further layers are not read: " + names);
     }
-    if (spec.get_int_attribute("oiio:UnassociatedAlpha") != 0) multiply_by_alpha(image);
+    if (spec.get_int_attribute("oiio:UnassociatedAlpha") != 0) {
+        for (std::size_t i = 0; i < 3 * image.alpha.size(); ++i) image.rgb[i] *= image.alpha[i / 3];
+    }
     fill_full_window(image, spec);
     if (std::any_of(image.rgb.begin(), image.rgb.end(), [](float value) { return !std::isfinite(value); })) {
         refuse_file(path, "holds a value whose linear light is beyond float32",
@@ -171,22 +166,18 @@ LinearImage read_image(const std::filesystem::path& path) {
     return image;
 }
 
-RawChannels read_raw_channels(const std::filesystem::path& path, const std::vector<std::string>& names) {
+std::optional<RawChannels> read_raw_channels(const std::filesystem::path& path,
+                                             const std::vector<std::string>& names) {
     ImageInput input(path);
-    const OIIO::ImageSpec& spec = input.spec();
-    RawChannels raw{spec.width, spec.height, {}, input.text()};
+    std::vector<int> found;
     for (const std::string& name : names) {
-        const auto place = find_channel(spec, name);
-        if (!place) refuse_file(path, "has no channel " + name, "give a file that has it");
-        raw.channels.push_back(input.read_channels(*place, *place + 1));
+        const auto channel = find_channel(input.spec(), name);
+        if (!channel) return std::nullopt;
+        found.push_back(*channel);
     }
+    RawChannels raw{input.spec().width, input.spec().height, {}, input.text()};
+    for (const int channel : found) raw.channels.push_back(input.read_channels(channel, channel + 1));
     return raw;
-}
-
-bool has_channels(const std::filesystem::path& path, const std::vector<std::string>& names) {
-    const ImageInput input(path);
-    return std::all_of(names.begin(), names.end(),
-                       [&](const std::string& name) { return find_channel(input.spec(), name).has_value(); });
 }
 
 }  // namespace skinglow::detail

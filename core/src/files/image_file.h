@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,18 +43,17 @@ struct LinearImage {
 /// not finite.
 LinearImage read_image(const std::filesystem::path& path);
 
-/// The named channels of an image as they stand in the file, not decoded, each (height, width); for tables
-/// that are stored as images. `text` and the size are filled, `rgb` is not. Throws FileError as `read_image`
-/// does, and where a channel is missing.
+/// Channels of an image as they stand in the file, not decoded, each (height, width); for tables that are stored as
+/// images.
 struct RawChannels {
     int width = 0;
     int height = 0;
     std::vector<std::vector<float>> channels;
-    std::map<std::string, std::string> text;
+    std::map<std::string, std::string> text;  ///< as in LinearImage
 };
-RawChannels read_raw_channels(const std::filesystem::path& path, const std::vector<std::string>& names);
-
-/// True where the image's first part has every one of the channels.
-bool has_channels(const std::filesystem::path& path, const std::vector<std::string>& names);
+/// The named channels of the image's first part; none where it has not every one of them.
+/// @throws FileError as read_image
+std::optional<RawChannels> read_raw_channels(const std::filesystem::path& path,
+                                             const std::vector<std::string>& names);
 
 }  // namespace skinglow::detail

@@ -37,15 +37,13 @@ ImageInput::ImageInput(const std::filesystem::path& path) : path_(path) {
 
 void ImageInput::check_size() const {
     const OIIO::ImageSpec& spec = input_->spec();
-    const auto refuse = [&](int width, int height) {
+    const auto check = [&](int width, int height) {
+        if (std::min(width, height) >= 1 && std::max(width, height) <= max_image_side &&
+            std::int64_t{width} * height <= max_image_pixels)
+            return;
         refuse_file(path_, "is " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
                     "at most " + std::to_string(max_image_side) + " either way and " +
                         std::to_string(max_image_pixels) + " in all are read; make it smaller");
-    };
-    const auto check = [&](int width, int height) {
-        if (width < 1 || height < 1 || width > max_image_side || height > max_image_side)
-            refuse(width, height);
-        if (std::int64_t{width} * height > max_image_pixels) refuse(width, height);
     };
     check(spec.width, spec.height);
     check(spec.full_width, spec.full_height);

@@ -4,7 +4,6 @@
 
 #include <memory>
 
-#include "files/atomic_file.h"
 #include "rig_files/file_error.h"
 
 namespace skinglow::detail {
@@ -23,11 +22,6 @@ std::string image_bytes(const std::filesystem::path& path, OIIO::ImageSpec spec,
     }
     output.reset();
     return {bytes.buffer().begin(), bytes.buffer().end()};
-}
-
-void write_image(const std::filesystem::path& path, OIIO::ImageSpec spec,
-                 const std::map<std::string, std::string>& text, const void* pixels) {
-    write_atomically(path, image_bytes(path, std::move(spec), text, pixels));
 }
 
 }  // namespace skinglow::detail

@@ -16,14 +16,6 @@ constexpr std::string_view column_names = "thickness_mm,r,g,b";
 // A row has at most 4 numbers of 24 characters: twice the longest table, with room for the header.
 constexpr std::size_t max_csv_bytes = max_lut_size * 200;
 
-/// The text cut at a separator: the part before it; `rest` keeps what follows.
-std::string_view take_until(std::string_view& rest, char separator) {
-    const std::size_t length = std::min(rest.find(separator), rest.size());
-    const std::string_view part = rest.substr(0, length);
-    rest.remove_prefix(std::min(length + 1, rest.size()));
-    return part;
-}
-
 std::array<double, 4> parse_row(std::string_view row, const std::filesystem::path& path,
                                 const std::string& where) {
     std::array<double, 4> numbers{};

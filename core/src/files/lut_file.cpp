@@ -56,8 +56,8 @@ double choose_axis(std::optional<double> asked, std::optional<double> own, std::
     return default_max_thickness_mm;
 }
 
-BaseLutFile read_matrices(const std::filesystem::path& path, std::optional<double> max_thickness_mm) {
-    const RawChannels raw = read_raw_channels(path, matrix_channels());
+BaseLutFile base_of_matrices(const std::filesystem::path& path, const RawChannels& raw,
+                             std::optional<double> max_thickness_mm) {
     if (raw.height != 1)
         refuse_file(path, "has " + std::to_string(raw.height) + " rows", "a table of matrices has one");
     std::vector<glm::dmat3> matrices(static_cast<std::size_t>(raw.width));
@@ -71,10 +71,6 @@ BaseLutFile read_matrices(const std::filesystem::path& path, std::optional<doubl
 }
 
 }  // namespace
-
-std::vector<std::string> matrix_channels() {
-    return {"M00", "M01", "M02", "M10", "M11", "M12", "M20", "M21", "M22"};
-}
 
 LutWriteReport write_lut(const std::filesystem::path& path, const LutTable& table, const PngOptions& png) {
     check_table(table, png);
@@ -102,7 +98,8 @@ LutFile read_lut(const std::filesystem::path& path) {
 }
 
 BaseLutFile read_base_lut(const std::filesystem::path& path, std::optional<double> max_thickness_mm) {
-    if (has_channels(path, matrix_channels())) return read_matrices(path, max_thickness_mm);
+    const std::vector<std::string> rows = {"M00", "M01", "M02", "M10", "M11", "M12", "M20", "M21", "M22"};
+    if (const auto raw = read_raw_channels(path, rows)) return base_of_matrices(path, *raw, max_thickness_mm);
     const LinearImage image = read_image(path);
     std::vector<std::string> notes = image.notes;
     if (static_cast<std::size_t>(image.width) > max_lut_size) {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "files/transfer_function.h"
+#include "files/color_encoding.h"
 #include "numerics/detail.h"
 
 /// Lookup tables as files. A table is an image one texel high; entry i is texel i (LutAxis). What the pixels
@@ -55,8 +55,15 @@ std::string lut_exr_bytes(const std::filesystem::path& path, const LutTable& tab
 LutWriteReport write_lut(const std::filesystem::path& path, const LutTable& table,
                          const PngOptions& png = {});
 
-/// Texels with a channel below 0 or above 1, which files of whole numbers cannot hold.
-std::size_t count_clamped(const LutTable& table);
+/// Writes the table as a strip that people can look at: 8-bit sRGB PNG, thickness from left (0 mm) to right,
+/// colors between entries interpolated linearly in linear light, as hosts do. Colors above 1 are clamped.
+/// @param path  ending in .png
+/// @param width  pixels, 1 to 16384, else std::invalid_argument
+/// @param height  as width
+/// @return the texels of the table that were clamped
+/// @throws FileError where the file is not .png or cannot be written
+LutWriteReport write_lut_preview(const std::filesystem::path& path, const LutTable& table, int width = 512,
+                                 int height = 64);
 
 /// A table and what people should know about how it was read.
 struct LutFile {
@@ -74,15 +81,12 @@ struct BaseLutFile {
 };
 
 /// Reads an image as a base lookup: thickness grows with x from the first texel (0 mm) to the last.
-/// A table of write_base_lut gives its matrices. Any other image gives brightness: an image of several rows
+/// A table of matrices, nine channels M00 to M22 of one row, gives them: Mij takes channel j of the light on the
+/// far side to channel i of the light coming through. Any other image gives brightness: an image of several rows
 /// the mean of each column's linear light, color its Rec.709 luminance; each said in `notes`.
 /// @param max_thickness_mm  of the last texel; without it the file's own, else 12 mm, which is said in
 /// `notes` Throws FileError as read_image does, where the image is wider than max_lut_size or a brightness is
 /// negative.
 BaseLutFile read_base_lut(const std::filesystem::path& path, std::optional<double> max_thickness_mm = {});
-
-/// Writes the matrices as a float32 EXR of nine channels M00 to M22: Mij takes channel j of the light on the
-/// far side to channel i of the light coming through. Throws FileError as write_lut does.
-void write_base_lut(const std::filesystem::path& path, const BaseLut& base);
 
 }  // namespace skinglow::detail

@@ -20,9 +20,6 @@ LutRecord to_lut_record(const HeaderText& text, const std::filesystem::path& pat
 /// The axis in the text, if it has one. Throws FileError where its value is not a number above 0.
 std::optional<double> axis_in(const HeaderText& text, const std::filesystem::path& path);
 
-/// Names of the nine channels of a table of matrices, row by row.
-std::vector<std::string> matrix_channels();
-
 LutWriteReport write_lut_png(const std::filesystem::path& path, const LutTable& table, const PngOptions& png);
 void write_lut_csv(const std::filesystem::path& path, const LutTable& table);
 LutFile read_lut_csv(const std::filesystem::path& path);

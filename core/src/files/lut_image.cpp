@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
 
+#include "files/atomic_file.h"
 #include "files/image_output.h"
 #include "files/lut_format.h"
 #include "numerics/argument_check.h"
@@ -31,15 +33,24 @@ std::vector<Number> quantize_table(const LutTable& table, const PngOptions& png)
     return pixels;
 }
 
-bool fits_0_to_1(const glm::dvec3& color) {
-    return std::min({color.r, color.g, color.b}) >= 0.0 && std::max({color.r, color.g, color.b}) <= 1.0;
+/// Texels with a channel below 0 or above 1, which files of whole numbers cannot hold.
+std::size_t count_clamped(const LutTable& table) {
+    return static_cast<std::size_t>(
+        std::count_if(table.colors.begin(), table.colors.end(),
+                      [](const glm::dvec3& color) { return color != glm::clamp(color, 0.0, 1.0); }));
 }
 
-OIIO::ImageSpec exr_spec(std::size_t width, int channels) {
-    OIIO::ImageSpec spec(static_cast<int>(width), 1, channels, OIIO::TypeFloat);
-    spec.attribute("compression", "zip");
-    spec.attribute("oiio:ColorSpace", "Linear");
-    return spec;
+void check_side(const char* name, int value) {
+    constexpr int longest = 16384;
+    if (value < 1 || value > longest) refuse_argument(name, std::to_string(value), "1 to 16384 pixels");
+}
+
+/// The table at 0 (first entry) to 1 (last).
+glm::dvec3 sample(const std::vector<glm::dvec3>& colors, double position) {
+    const double index = position * static_cast<double>(colors.size() - 1);
+    const auto below = static_cast<std::size_t>(index);
+    const std::size_t above = std::min(below + 1, colors.size() - 1);
+    return glm::mix(colors[below], colors[above], index - static_cast<double>(below));
 }
 
 }  // namespace
@@ -51,12 +62,10 @@ std::string lut_exr_bytes(const std::filesystem::path& path, const LutTable& tab
         for (int channel = 0; channel < 3; ++channel)
             pixels.push_back(to_float(table.colors[i][channel], path, i));
     }
-    return image_bytes(path, exr_spec(table.colors.size(), 3), to_header_text(table.record), pixels.data());
-}
-
-std::size_t count_clamped(const LutTable& table) {
-    const auto held = std::count_if(table.colors.begin(), table.colors.end(), fits_0_to_1);
-    return table.colors.size() - static_cast<std::size_t>(held);
+    OIIO::ImageSpec spec(static_cast<int>(table.colors.size()), 1, 3, OIIO::TypeFloat);
+    spec.attribute("compression", "zip");
+    spec.attribute("oiio:ColorSpace", "Linear");
+    return image_bytes(path, spec, to_header_text(table.record), pixels.data());
 }
 
 LutWriteReport write_lut_png(const std::filesystem::path& path, const LutTable& table,
@@ -69,34 +78,35 @@ LutWriteReport write_lut_png(const std::filesystem::path& path, const LutTable& 
     // OpenImageIO makes of these the PNG chunks sRGB or gAMA, which viewers and renderers know.
     spec.attribute("oiio:ColorSpace", srgb ? "sRGB" : "Linear");
     if (png.bits == 8) {
-        write_image(path, spec, text, quantize_table<std::uint8_t>(table, png).data());
+        write_atomically(path,
+                         image_bytes(path, spec, text, quantize_table<std::uint8_t>(table, png).data()));
     } else {
-        write_image(path, spec, text, quantize_table<std::uint16_t>(table, png).data());
+        write_atomically(path,
+                         image_bytes(path, spec, text, quantize_table<std::uint16_t>(table, png).data()));
     }
     return {count_clamped(table)};
 }
 
-void write_base_lut(const std::filesystem::path& path, const BaseLut& base) {
-    if (small_extension(path) != ".exr") {
-        refuse_file(path, "cannot hold a table of matrices", "name it .exr; it has nine channels of floats");
-    }
-    std::vector<float> pixels;
-    pixels.reserve(base.size() * 9);
-    for (std::size_t texel = 0; texel < base.size(); ++texel) {
-        for (int row = 0; row < 3; ++row) {
-            for (int column = 0; column < 3; ++column) {
-                pixels.push_back(
-                    to_float(base.matrices()[texel][column][row], path, texel));  // GLM: column first
-            }
-        }
-    }
-    OIIO::ImageSpec spec = exr_spec(base.size(), 9);
-    spec.channelnames = matrix_channels();
-    LutRecord record;
-    record.max_thickness_mm = base.axis().max_thickness_mm();
-    HeaderText text = to_header_text(record);
-    text["skinglow:table"] = "base";
-    write_image(path, spec, text, pixels.data());
+LutWriteReport write_lut_preview(const std::filesystem::path& path, const LutTable& table, int width,
+                                 int height) {
+    check_side("preview width", width);
+    check_side("preview height", height);
+    if (small_extension(path) != ".png") refuse_file(path, "cannot hold a preview", "name it .png");
+    const LutAxis checked(table.colors.size(), table.record.max_thickness_mm);
+    LutTable columns;
+    for (int x = 0; x < width; ++x)
+        columns.colors.push_back(
+            sample(table.colors, width == 1 ? 0.0 : static_cast<double>(x) / (width - 1)));
+    const std::vector<std::uint8_t> row = quantize_table<std::uint8_t>(columns, {.encoding = Encoding::srgb});
+    std::vector<std::uint8_t> pixels;
+    pixels.reserve(row.size() * static_cast<std::size_t>(height));
+    for (int y = 0; y < height; ++y) pixels.insert(pixels.end(), row.begin(), row.end());
+    OIIO::ImageSpec spec(width, height, 3, OIIO::TypeUInt8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    write_atomically(
+        path, image_bytes(path, spec, {{"skinglow:max_thickness_mm", to_text(table.record.max_thickness_mm)}},
+                          pixels.data()));
+    return {count_clamped(table)};
 }
 
 }  // namespace skinglow::detail

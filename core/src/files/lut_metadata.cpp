@@ -20,20 +20,26 @@ std::optional<glm::dvec3> find_three_numbers(const HeaderText& text, const std::
                                              const std::filesystem::path& path) {
     const auto found = text.find(key);
     if (found == text.end()) return std::nullopt;
-    const auto refuse = [&] {
-        refuse_file(path, "is \"" + found->second + "\", not three numbers", foreign_remedy, "key " + key);
-    };
     glm::dvec3 value{0.0};
     std::string_view rest = found->second;
     for (int i = 0; i < 3; ++i) {
-        const std::size_t length = i < 2 ? rest.find(' ') : rest.size();
-        if (length == std::string_view::npos) refuse();
-        const auto number = parse_number(rest.substr(0, length));
-        if (!number) refuse();
+        const auto number = parse_number(i < 2 ? take_until(rest, ' ') : rest);
+        if (!number)
+            refuse_file(path, "is \"" + found->second + "\", not three numbers", foreign_remedy,
+                        "key " + key);
         value[i] = *number;
-        if (i < 2) rest.remove_prefix(length + 1);
     }
     return value;
+}
+
+std::optional<LutMode> mode_in(const HeaderText& text, const std::filesystem::path& path) {
+    const auto found = text.find("skinglow:mode");
+    if (found == text.end()) return std::nullopt;
+    try {
+        return lut_mode(found->second);
+    } catch (const std::invalid_argument& refusal) {
+        refuse_file(path, refusal.what(), foreign_remedy, "key skinglow:mode");
+    }
 }
 
 }  // namespace
@@ -59,20 +65,6 @@ std::optional<double> axis_in(const HeaderText& text, const std::filesystem::pat
     }
     return value;
 }
-
-namespace {
-
-std::optional<LutMode> mode_in(const HeaderText& text, const std::filesystem::path& path) {
-    const auto found = text.find("skinglow:mode");
-    if (found == text.end()) return std::nullopt;
-    try {
-        return lut_mode(found->second);
-    } catch (const std::invalid_argument& refusal) {
-        refuse_file(path, refusal.what(), foreign_remedy, "key skinglow:mode");
-    }
-}
-
-}  // namespace
 
 LutRecord to_lut_record(const HeaderText& text, const std::filesystem::path& path) {
     const auto axis = axis_in(text, path);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <utility>
 
 #include "files/color_encoding.h"
 #include "files/number_bytes.h"
@@ -46,55 +47,31 @@ std::map<std::string, std::string> color_chunks(const std::filesystem::path& pat
 /// Coding-independent code points: ITU-T H.273.
 ColorEncoding read_cicp(const std::filesystem::path& path, const std::string& data) {
     constexpr const char* remedy = "write it as EXR, or as PNG in sRGB";
-    const auto primaries = static_cast<unsigned char>(data[0]);
-    const auto transfer = static_cast<unsigned char>(data[1]);
-    ColorEncoding encoding;
-    switch (transfer) {
-        case 2:
-        case 13:
-            encoding.transfer = Transfer::srgb;
-            break;
-        case 4:
-            encoding.transfer = Transfer::gamma;
-            encoding.gamma = 2.2;
-            break;
-        case 5:
-            encoding.transfer = Transfer::gamma;
-            encoding.gamma = 2.8;
-            break;
-        case 8:
-            encoding.transfer = Transfer::linear;
-            break;
-        default:
-            refuse_file(path,
-                        "is encoded by transfer function " + std::to_string(transfer) + " of H.273" +
-                            (transfer == 16   ? " (PQ)"
-                             : transfer == 18 ? " (HLG)"
-                                              : "") +
-                            ", which is not read",
-                        remedy, "chunk cICP");
+    static const std::map<int, std::pair<Transfer, double>> transfers = {{2, {Transfer::srgb, 1.0}},
+                                                                         {4, {Transfer::gamma, 2.2}},
+                                                                         {5, {Transfer::gamma, 2.8}},
+                                                                         {8, {Transfer::linear, 1.0}},
+                                                                         {13, {Transfer::srgb, 1.0}}};
+    static const std::map<int, std::optional<Chromaticities>> primaries = {
+        {1, std::nullopt}, {2, std::nullopt}, {9, rec2020}, {12, display_p3}};
+    const int primaries_code = static_cast<unsigned char>(data[0]);
+    const int transfer_code = static_cast<unsigned char>(data[1]);
+    const auto transfer = transfers.find(transfer_code);
+    if (transfer == transfers.end()) {
+        const std::string name = transfer_code == 16 ? " (PQ)" : transfer_code == 18 ? " (HLG)" : "";
+        refuse_file(path,
+                    "is encoded by transfer function " + std::to_string(transfer_code) + " of H.273" + name +
+                        ", which is not read",
+                    remedy, "chunk cICP");
     }
-    switch (primaries) {
-        case 1:
-        case 2:
-            break;
-        case 9:
-            encoding.chromaticities = rec2020;
-            break;
-        case 12:
-            encoding.chromaticities = display_p3;
-            break;
-        default:
-            refuse_file(path,
-                        "has the primaries " + std::to_string(primaries) + " of H.273, which are not read",
-                        remedy, "chunk cICP");
+    const auto found = primaries.find(primaries_code);
+    if (found == primaries.end()) {
+        refuse_file(path,
+                    "has the primaries " + std::to_string(primaries_code) + " of H.273, which are not read",
+                    remedy, "chunk cICP");
     }
-    return encoding;
-}
-
-/// Whether a profile's name says that it is of sRGB.
-bool is_srgb_profile(const std::string& name) {
-    return name.find("sRGB") != std::string::npos;
+    const auto [kind, gamma] = transfer->second;
+    return {kind, gamma, found->second, {}};
 }
 
 }  // namespace
@@ -109,7 +86,7 @@ std::optional<ColorEncoding> read_png_encoding(const std::filesystem::path& path
     ColorEncoding encoding;
     if (const auto* profile = chunk("iCCP", 1)) {
         const std::string name = profile->substr(0, profile->find('\0'));
-        if (!is_srgb_profile(name))
+        if (name.find("sRGB") == std::string::npos)
             encoding.note = "its ICC profile \"" + name + "\" is not read; it is taken as sRGB";
         return encoding;
     }

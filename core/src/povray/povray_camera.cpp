@@ -109,8 +109,8 @@ std::string povray_camera_text(const PovrayCamera& camera) {
     SdlText text;
     text.add("// No look_at: it would mirror the picture of a right-handed scene.\ncamera {\n");
     text.add(perspective ? "  perspective\n" : "  orthographic\n");
-    text.add("  location ").add(location).add("\n  direction ").add(direction);
-    text.add("\n  right ").add(size.x * right).add("\n  up ").add(size.y * up).add("\n}\n");
+    text.add("  location ", location, "\n  direction ", direction);
+    text.add("\n  right ", size.x * right, "\n  up ", size.y * up, "\n}\n");
     return text.take();
 }
 

@@ -27,7 +27,7 @@ double visible_step(const glm::dvec3& position, double step) {
 
 void add_point_at(SdlText& text, const PreparedLight& light) {
     const double step = visible_step(light.position(), 1.0);
-    text.add("\n  spotlight point_at ").add(light.position() + step * light.direction());
+    text.add("\n  spotlight point_at ", light.position() + step * light.direction());
 }
 
 /// Blender's inverse square in POV-Ray: attenuation is 2 / (1 + (d / f)^2), so 1 / (2 f^2) of the light makes
@@ -41,15 +41,14 @@ double fade_distance(const PreparedLight& light, const Box& bounds) {
 
 /// "rgb <...>", refused by the light's name where it is beyond the largest double.
 void add_color(SdlText& text, const Light& light, double factor) {
-    text.add("\n  rgb ")
-        .add(require_finite("light \"" + light.name() + "\" intensity", light.color() * factor));
+    text.add("\n  rgb ", require_finite("light \"" + light.name() + "\" intensity", light.color() * factor));
 }
 
 void add_fading_color(SdlText& text, const Light& light, double power_to_intensity, const Box& bounds) {
     const double f = fade_distance(PreparedLight(light), bounds);
     // One factor after the other, so that no square over- or underflows.
     add_color(text, light, light.power() / f * power_to_intensity / (2.0 * f));
-    text.add("\n  fade_distance ").add(f).add(" fade_power 2");
+    text.add("\n  fade_distance ", f, " fade_power 2");
 }
 
 /// POV-Ray's cone fades by the same smoothstep in the cosine as Blender's.
@@ -57,9 +56,8 @@ void add_spot(SdlText& text, const SpotLight& light, const PreparedLight& prepar
     const double cos_edge = std::cos(0.5 * light.spot_angle);
     const double cos_fade = cos_edge + light.spot_blend * (1.0 - cos_edge);
     add_point_at(text, prepared);
-    text.add(" radius ").add(degrees(std::acos(std::clamp(cos_fade, -1.0, 1.0))));
-    text.add(" falloff ").add(degrees(0.5 * light.spot_angle));
-    text.add(" tightness ").add(light.spot_cosine ? 1.0 : 0.0);
+    text.add(" radius ", degrees(std::acos(std::clamp(cos_fade, -1.0, 1.0))), " falloff ",
+             degrees(0.5 * light.spot_angle), " tightness ", light.spot_cosine ? 1.0 : 0.0);
 }
 
 /// A spread fades from its axis on by Blender's (tan h - tan t) / tan h, which is not among POV-Ray's laws: a
@@ -81,12 +79,13 @@ void add_area(SdlText& text, const AreaLight& light, const PreparedLight& prepar
     const double half_spread = prepared.area()->half_spread();
     const double falloff = degrees(half_spread);
     add_point_at(text, prepared);
-    text.add(" radius ").add(lambert ? falloff : 0.0).add(" falloff ").add(falloff);
-    text.add(" tightness ").add(lambert ? 1.0 : spread_tightness(half_spread));
-    // POV-Ray's samples extend to the rim: nine of them over sqrt(8/10) of the width spread as the whole width does.
+    text.add(" radius ", lambert ? falloff : 0.0, " falloff ", falloff, " tightness ",
+             lambert ? 1.0 : spread_tightness(half_spread));
+    // POV-Ray's outermost samples lie on the edge: nine of them over sqrt(8/10) of the width have the variance of
+    // the whole width.
     const double inner = std::sqrt(0.8);
-    text.add("\n  area_light ").add(inner * light.size_x * prepared.frame()[0]).add(", ");
-    text.add(inner * light.size_y * prepared.frame()[1]).add(", 9, 9 adaptive 1 area_illumination on");
+    text.add("\n  area_light ", inner * light.size_x * prepared.frame()[0], ", ",
+             inner * light.size_y * prepared.frame()[1], ", 9, 9 adaptive 1 area_illumination on");
     if (light.area_shape == AreaShape::ellipse) text.add(" circular");
 }
 
@@ -95,7 +94,7 @@ void add_sun(SdlText& text, const Light& light, const PreparedLight& prepared, c
     const double distance = visible_step(center, 2.0 * std::max(2.0 * bounds.radius(), 1.0));
     text.add(center - distance * prepared.direction());
     add_color(text, light, light.power() / pi);
-    text.add("\n  parallel point_at ").add(center);
+    text.add("\n  parallel point_at ", center);
 }
 
 }  // namespace
@@ -106,9 +105,7 @@ std::string povray_lights_text(const std::vector<Light>& lights_on, const Box& b
     for (const Light& light : lights_on) {
         const PreparedLight prepared(light);
         if (prepared.dark()) continue;
-        text.add("// " + sdl_comment(light.name()) + " (")
-            .add(to_text(light.kind()))
-            .add(")\nlight_source {\n  ");
+        text.add("// " + sdl_comment(light.name()) + " (", to_text(light.kind()), ")\nlight_source {\n  ");
         if (light.kind() == LightKind::sun) {
             add_sun(text, light, prepared, bounds);
         } else if (const auto* area = std::get_if<AreaLight>(&light.shape())) {

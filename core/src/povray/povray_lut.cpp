@@ -12,8 +12,7 @@ namespace {
 template <typename ValueAt>
 void add_array(SdlText& text, std::string_view name, std::size_t size, std::size_t per_line,
                ValueAt value_at) {
-    text.add("#declare Skinglow_").add(name).add(" = array[");
-    text.add(static_cast<std::uint32_t>(size)).add("] {");
+    text.add("#declare Skinglow_", name, " = array[", size, "] {");
     for (std::size_t i = 0; i < size; ++i) text.add_item(i, per_line, value_at(i));
     text.add("\n}\n");
 }
@@ -30,21 +29,19 @@ void add_lights(SdlText& text, const std::vector<Light>& lights) {
 
 void add_paper_table(SdlText& text, const PovrayLut& lut, const std::vector<Light>& lights) {
     const AttenuationCoefficients& k = lut.coefficients;
-    const auto count = static_cast<std::uint32_t>(lights.size());
     text.add("// Base lookup: brightness by thickness.\n");
     add_array(text, "Base", lut.base.size(), 8, [&](std::size_t i) { return lut.base[i]; });
-    text.add("#declare Skinglow_Blood_Weight = ").add(lut.blood_weight).add(";  // B\n");
+    text.add("#declare Skinglow_Blood_Weight = ", lut.blood_weight, ";  // B\n");
     text.add("// Lights that are on. Colors as vectors: POV-Ray keeps `rgb` colors in 24 bits only.\n");
-    text.add("#declare Skinglow_Light_Count = ").add(count).add(";\n");
-    if (count > 0) add_lights(text, lights);
+    text.add("#declare Skinglow_Light_Count = ", lights.size(), ";\n");
+    if (!lights.empty()) add_lights(text, lights);
     text.add("// Eq. 2 and 3: what the distances are measured to, and k_c, k_l, k_q.\n");
     text.add("#declare Skinglow_Light = Skinglow_Light_Weight(Skinglow_Light_Count, ");
     text.add(
-        count > 0
-            ? "Skinglow_Light_Kinds, Skinglow_Light_Colors, Skinglow_Light_Positions, Skinglow_Light_Powers"
-            : "0, 0, 0, 0");
-    text.add(",\n    ").add(lut.point).add(", ").add(glm::dvec3(k.constant, k.linear, k.quadratic));
-    text.add(");  // L\n");
+        lights.empty()
+            ? "0, 0, 0, 0"
+            : "Skinglow_Light_Kinds, Skinglow_Light_Colors, Skinglow_Light_Positions, Skinglow_Light_Powers");
+    text.add(",\n    ", lut.point, ", ", glm::dvec3(k.constant, k.linear, k.quadratic), ");  // L\n");
     text.add(
         "#declare Skinglow_Table = Skinglow_Recolor(Skinglow_Base, Skinglow_Blood_Weight, "
         "Skinglow_Light)\n");
@@ -112,23 +109,18 @@ void validate(const PovrayLut& lut) {
 
 std::string povray_lut_text(const PovrayLut& lut, const std::vector<Light>& lights_on) {
     SdlText text;
-    text.add("// Lookup of the light that comes through, mode `").add(to_text(lut.mode)).add("`: ");
-    text.add(static_cast<std::uint32_t>(lut.axis.size()))
-        .add(" entries, 0 to ")
-        .add(lut.axis.max_thickness_mm());
-    text.add(" mm, at the centers of u's texels. Linear Rec.709.\n#include \"skinglow.inc\"\n");
-    text.add("#declare Skinglow_Strength = ")
-        .add(lut.strength)
-        .add(";  // radiance shown = strength * lookup\n");
+    text.add("// Lookup of the light that comes through, mode `", to_text(lut.mode), "`: ", lut.axis.size(),
+             " entries, 0 to ", lut.axis.max_thickness_mm(),
+             " mm, at the centers of u's texels. Linear Rec.709.\n#include \"skinglow.inc\"\n");
+    text.add("#declare Skinglow_Strength = ", lut.strength, ";  // radiance shown = strength * lookup\n");
     if (lut.glow == PovrayGlow::image) {
-        text.add("#declare Skinglow_Lookup = ")
-            .add("Skinglow_Image_Pigment(" + sdl_string("LUT image", lut.image) + ")\n");
+        text.add("#declare Skinglow_Lookup = Skinglow_Image_Pigment(", sdl_string("LUT image", lut.image),
+                 ")\n");
         return text.take();
     }
     if (lut.mode == LutMode::existing) {
-        text.add("#declare Skinglow_Table = Skinglow_Six_Gaussian(")
-            .add(static_cast<std::uint32_t>(lut.axis.size()));
-        text.add(", ").add(lut.axis.max_thickness_mm()).add(")\n");
+        text.add("#declare Skinglow_Table = Skinglow_Six_Gaussian(", lut.axis.size(), ", ",
+                 lut.axis.max_thickness_mm(), ")\n");
     } else {
         add_paper_table(text, lut, lights_on);
     }

@@ -25,17 +25,16 @@ Weld used_vertices(const TriangleMesh& mesh) {
 template <typename ValueAt>
 void add_vectors(SdlText& text, std::string_view keyword, std::span<const std::uint32_t> entries,
                  ValueAt value_at) {
-    text.add("  ").add(keyword).add(" { ").add(static_cast<std::uint32_t>(entries.size())).add(",");
+    text.add("  ", keyword, " { ", entries.size(), ",");
     for (std::size_t i = 0; i < entries.size(); ++i) text.add_item(i, 4, value_at(entries[i]));
     text.add("\n  }\n");
 }
 
 template <typename IndexOfCorner>
 void add_indices(SdlText& text, std::string_view keyword, std::size_t triangles, IndexOfCorner index) {
-    text.add("  ").add(keyword).add(" { ").add(static_cast<std::uint32_t>(triangles)).add(",");
+    text.add("  ", keyword, " { ", triangles, ",");
     for (std::size_t i = 0; i < triangles; ++i) {
-        text.add_item(i, 8, "<").add(index(3 * i)).add(",").add(index(3 * i + 1));
-        text.add(",").add(index(3 * i + 2)).add(">");
+        text.add_item(i, 8, "<", index(3 * i), ",", index(3 * i + 1), ",", index(3 * i + 2), ">");
     }
     text.add("\n  }\n");
 }
@@ -81,7 +80,7 @@ void validate(const PovrayMesh& mesh, const std::optional<PovraySurface>& surfac
     }
     require_finite_list<glm::dvec3>("vertex_normals", mesh.vertex_normals);
     require_finite_list<glm::dvec3>("corner_normals", mesh.corner_normals);
-    if (surface && !surface->image.empty()) {
+    if (has_picture(surface)) {
         require_count("surface_uv", mesh.surface_uv.size(), corners, "three per triangle");
         require_finite_list<glm::dvec2>("surface_uv", mesh.surface_uv);
     }
@@ -94,12 +93,12 @@ std::string mesh_identifier(const PovrayMesh& mesh) {
 std::string povray_mesh_text(const PovrayScene& scene) {
     const PovrayMesh& mesh = scene.mesh;
     const Weld used = used_vertices(mesh.geometry);
-    const bool has_picture = scene.surface && !scene.surface->image.empty();
+    const bool in_parts = has_picture(scene.surface);
     SdlText text;
     text.reserve(used.first.size() * 180 + mesh.geometry.triangles().size() * 60);
-    text.add("// " + sdl_comment(mesh.name) +
-             ": triangles in world space, as Blender has it (right-handed, z up).\n");
-    text.add("#declare ").add(mesh_identifier(mesh)).add(" = mesh2 {\n");
+    text.add("// ", sdl_comment(mesh.name),
+             ": triangles in world space, as Blender has it (right-handed, z up).\n", "#declare ",
+             mesh_identifier(mesh), " = mesh2 {\n");
     add_vectors(text, "vertex_vectors", used.first,
                 [&](std::uint32_t i) { return mesh.geometry.vertices()[i]; });
 
@@ -113,8 +112,8 @@ std::string povray_mesh_text(const PovrayScene& scene) {
     const Weld corner_normals = by_corner ? weld(normals) : Weld{};
     if (smooth) add_vectors(text, "normal_vectors", by_corner ? corner_normals.first : used.first, normal_at);
 
-    const Weld corner_uv = has_picture ? weld<glm::dvec2>(mesh.surface_uv) : Weld{};
-    if (has_picture) {
+    const Weld corner_uv = in_parts ? weld<glm::dvec2>(mesh.surface_uv) : Weld{};
+    if (in_parts) {
         text.add("#if (Skinglow_Part = 1)\n");
         add_vectors(text, "uv_vectors", corner_uv.first, [&](std::uint32_t i) { return mesh.surface_uv[i]; });
         text.add("#else\n");
@@ -123,13 +122,13 @@ std::string povray_mesh_text(const PovrayScene& scene) {
     add_vectors(text, "uv_vectors", used.first, [&](std::uint32_t i) {
         return glm::dvec2(std::clamp(mesh.lut_u[i], first, 1.0 - first), 0.5);
     });
-    if (has_picture) text.add("#end\n");
+    if (in_parts) text.add("#end\n");
 
     add_indices(text, "face_indices", mesh.geometry.triangles().size(), [&](std::size_t i) {
         return used.index[mesh.geometry.triangles()[i / 3][static_cast<int>(i % 3)]];
     });
     if (by_corner) add_corner_indices(text, "normal_indices", corner_normals);
-    if (has_picture) {
+    if (in_parts) {
         text.add("#if (Skinglow_Part = 1)\n");
         add_corner_indices(text, "uv_indices", corner_uv);
         text.add("#end\n");

@@ -12,6 +12,11 @@ void validate(const PovrayMesh& mesh, const std::optional<PovraySurface>& surfac
 void validate(const PovrayCamera& camera);
 void validate(const PovrayLut& lut);
 
+/// Whether the surface's color is an image, so that the scene is rendered in two parts.
+inline bool has_picture(const std::optional<PovraySurface>& surface) {
+    return surface && !surface->image.empty();
+}
+
 std::string mesh_identifier(const PovrayMesh& mesh);
 
 std::string povray_mesh_text(const PovrayScene& scene);

@@ -1,7 +1,6 @@
 #include "povray/sdl_text.h"
 
-#include <array>
-#include <charconv>
+#include <cstdint>
 
 #include "numerics/argument_check.h"
 
@@ -15,33 +14,11 @@ bool is_letter_or_digit(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
 }
 
-bool is_printable_ascii(char c) {
-    return c >= ' ' && c <= '~';
-}
-
 }  // namespace
 
-SdlText& SdlText::add(double value) {
-    require_finite("number in the POV-Ray scene", value);
-    std::array<char, 32> buffer{};
+void SdlText::append(double value) {
     // + 0: minus zero becomes zero, so that files of equal scenes are equal.
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value + 0.0).ptr;
-    text_.append(buffer.data(), end);
-    return *this;
-}
-
-SdlText& SdlText::add(std::uint32_t value) {
-    std::array<char, 16> buffer{};
-    text_.append(buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr);
-    return *this;
-}
-
-SdlText& SdlText::add(const glm::dvec2& value) {
-    return add("<").add(value.x).add(",").add(value.y).add(">");
-}
-
-SdlText& SdlText::add(const glm::dvec3& value) {
-    return add("<").add(value.x).add(",").add(value.y).add(",").add(value.z).add(">");
+    text_ += to_text(require_finite("number in the POV-Ray scene", value) + 0.0);
 }
 
 std::string sdl_identifier(std::string_view kind, std::string_view name) {
@@ -82,7 +59,7 @@ std::string sdl_string(std::string_view field, std::string_view text) {
 
 std::string sdl_comment(std::string_view text) {
     std::string comment;
-    for (const char c : text) comment += is_printable_ascii(c) && c != '\\' ? c : '?';
+    for (const char c : text) comment += c >= ' ' && c <= '~' && c != '\\' ? c : '?';
     return comment;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
-#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
@@ -15,27 +15,30 @@ namespace skinglow::detail {
 /// Text in POV-Ray's scene description language. Numbers are the shortest that read back as the same double.
 class SdlText {
   public:
-    SdlText& add(std::string_view text) {
-        text_ += text;
+    /// Appends text, whole numbers, doubles and vectors, <x,y> or <x,y,z>.
+    /// @throws std::invalid_argument on inf and NaN, which SDL has not
+    template <typename... Part>
+    SdlText& add(const Part&... parts) {
+        (append(parts), ...);
         return *this;
     }
-    SdlText& add(double value);  ///< throws std::invalid_argument on inf and NaN, which SDL has not
-    SdlText& add(std::uint32_t value);
-    SdlText& add(const glm::dvec2& value);  ///< <x,y>
-    SdlText& add(const glm::dvec3& value);  ///< <x,y,z>
+
+    /// Entry i of a list: a comma before all but the first, and line ends that keep lines readable.
+    template <typename... Part>
+    void add_item(std::size_t i, std::size_t per_line, const Part&... parts) {
+        add(i > 0 ? "," : "", i % per_line == 0 ? "\n" : " ", parts...);
+    }
 
     void reserve(std::size_t characters) { text_.reserve(characters); }
     std::string take() { return std::move(text_); }
 
-    /// Entry i of a list: a comma before all but the first, and line ends that keep lines readable.
-    template <typename Value>
-    SdlText& add_item(std::size_t i, std::size_t per_line, const Value& value) {
-        if (i > 0) text_ += ',';
-        text_ += i % per_line == 0 ? '\n' : ' ';
-        return add(value);
-    }
-
   private:
+    void append(std::string_view text) { text_ += text; }
+    void append(std::integral auto value) { text_ += std::to_string(value); }
+    void append(double value);
+    void append(const glm::dvec2& v) { add("<", v.x, ",", v.y, ">"); }
+    void append(const glm::dvec3& v) { add("<", v.x, ",", v.y, ",", v.z, ">"); }
+
     std::string text_;
 };
 

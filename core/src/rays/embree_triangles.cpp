@@ -9,6 +9,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace skinglow::detail {
 namespace {
@@ -30,23 +31,20 @@ struct FilterContext {
     throw std::runtime_error("Embree: " + what);
 }
 
-void check(RTCDevice device, const char* doing) {
-    const RTCError error = rtcGetDeviceError(device);
-    if (error != RTC_ERROR_NONE)
-        fail(std::string(doing) + " failed with error code " + std::to_string(error));
-}
+struct Release {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+    void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+template <typename Handle>
+using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
 
-RTCDevice open_device() {
+Owned<RTCDevice> open_device() {
     // No thread count: with TBB that would limit the whole process, and with it the host's renderer.
-    RTCDevice device = rtcNewDevice("ignore_config_files=1");
+    Owned<RTCDevice> device(rtcNewDevice("ignore_config_files=1"));
     if (device == nullptr) fail("no device, error code " + std::to_string(rtcGetDeviceError(nullptr)));
-    try {
-        require_embree(rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MAJOR),
-                       rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED));
-    } catch (...) {
-        rtcReleaseDevice(device);
-        throw;
-    }
+    require_embree(rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_VERSION_MAJOR),
+                   rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED));
     return device;
 }
 
@@ -93,15 +91,13 @@ void show_to_visitor(const RTCFilterFunctionNArguments* arguments) {
 
 void add_triangles(RTCDevice device, RTCScene scene, std::span<const glm::dvec3> points,
                    std::span<const glm::uvec3> corners) {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    const Owned<RTCGeometry> owner(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+    RTCGeometry geometry = owner.get();
     auto* to_point = static_cast<float*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), points.size()));
     auto* to_corner = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), corners.size()));
-    if (to_point == nullptr || to_corner == nullptr) {
-        rtcReleaseGeometry(geometry);
-        fail("no memory for the mesh");
-    }
+    if (to_point == nullptr || to_corner == nullptr) fail("no memory for the mesh");
     for (const glm::dvec3& p : points) {
         for (int k = 0; k < 3; ++k) *to_point++ = static_cast<float>(p[k]);
     }
@@ -112,7 +108,6 @@ void add_triangles(RTCDevice device, RTCScene scene, std::span<const glm::dvec3>
     rtcSetGeometryIntersectFilterFunction(geometry, show_to_visitor);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
 }
 
 }  // namespace
@@ -135,28 +130,21 @@ void require_embree(long version_major, long filter_functions) {
 }
 
 struct EmbreeTriangles::Handles {
-    RTCDevice device = open_device();
-    RTCScene scene = rtcNewScene(device);
-
-    Handles() = default;
-    Handles(const Handles&) = delete;
-    Handles& operator=(const Handles&) = delete;
-    ~Handles() {
-        rtcReleaseScene(scene);
-        rtcReleaseDevice(device);
-    }
+    Owned<RTCDevice> device = open_device();
+    Owned<RTCScene> scene{rtcNewScene(device.get())};
 };
 
 EmbreeTriangles::EmbreeTriangles(std::span<const glm::dvec3> points, std::span<const glm::uvec3> corners)
-    : handles_(std::make_unique<Handles>()) {
+    : handles_(std::make_shared<Handles>()) {
+    RTCDevice device = handles_->device.get();
+    RTCScene scene = handles_->scene.get();
     // Robust: no ray slips through between two triangles that share an edge.
-    rtcSetSceneFlags(handles_->scene, RTC_SCENE_FLAG_ROBUST);
-    if (!corners.empty()) add_triangles(handles_->device, handles_->scene, points, corners);
-    rtcCommitScene(handles_->scene);
-    check(handles_->device, "building the scene");
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    if (!corners.empty()) add_triangles(device, scene, points, corners);
+    rtcCommitScene(scene);
+    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
+        fail("building the scene failed with error code " + std::to_string(error));
 }
-
-EmbreeTriangles::~EmbreeTriangles() = default;
 
 void EmbreeTriangles::visit(const glm::dvec3& origin, const glm::dvec3& direction, float from,
                             const HitVisitor& visitor) const {
@@ -170,10 +158,10 @@ void EmbreeTriangles::visit(const glm::dvec3& origin, const glm::dvec3& directio
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
     arguments.context = &context.embree;
-    rtcIntersect1(handles_->scene, &query, &arguments);
+    rtcIntersect1(handles_->scene.get(), &query, &arguments);
 #else
     rtcInitIntersectContext(&context.embree);
-    rtcIntersect1(handles_->scene, &context.embree, &query);
+    rtcIntersect1(handles_->scene.get(), &context.embree, &query);
 #endif
 }
 
@@ -186,10 +174,10 @@ bool EmbreeTriangles::occluded(const glm::dvec3& origin, const glm::dvec3& direc
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
     arguments.context = &context.embree;
-    rtcOccluded1(handles_->scene, &ray, &arguments);
+    rtcOccluded1(handles_->scene.get(), &ray, &arguments);
 #else
     rtcInitIntersectContext(&context.embree);
-    rtcOccluded1(handles_->scene, &context.embree, &ray);
+    rtcOccluded1(handles_->scene.get(), &context.embree, &ray);
 #endif
     return ray.tfar < 0;
 }

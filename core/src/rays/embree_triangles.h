@@ -21,15 +21,13 @@ struct TriangleRange {
 using HitVisitor = std::function<float(float distance, std::uint32_t triangle)>;
 
 /// Triangles in Embree 3 or 4. The only file that includes Embree. Single precision: coordinates should lie
-/// about the origin, at about the size of 1. All that is const may be called from many threads at once.
+/// about the origin, at about the size of 1. All that is const may be called from many threads at once. Copies
+/// share the structure.
 class EmbreeTriangles {
   public:
     /// Copies the triangles and builds the acceleration structure. No ray slips through between two that
     /// share an edge. Throws as require_embree, and std::runtime_error where Embree fails.
     EmbreeTriangles(std::span<const glm::dvec3> points, std::span<const glm::uvec3> corners);
-    ~EmbreeTriangles();
-    EmbreeTriangles(const EmbreeTriangles&) = delete;
-    EmbreeTriangles& operator=(const EmbreeTriangles&) = delete;
 
     /// Visits all triangles that a ray crosses from a distance on, either side of them, in one traversal;
     /// those beyond the limits that the visitor gives may be left out. A ray through an edge may hit both
@@ -46,7 +44,7 @@ class EmbreeTriangles {
 
   private:
     struct Handles;
-    std::unique_ptr<Handles> handles_;
+    std::shared_ptr<Handles> handles_;
 };
 
 /// Throws std::runtime_error that says what to do, unless the Embree that answers in this process can serve:

@@ -51,7 +51,7 @@ bool is_repeated(std::span<const Crossing> earlier, const Crossing& crossing, co
 /// The first crossing at which the ray has left as many bodies as it has entered, the one it starts in
 /// included.
 /// @param crossings  ascending by distance
-std::optional<std::uint32_t> first_way_out(std::span<const Crossing> crossings, const WeldedMesh& mesh) {
+std::optional<std::uint32_t> first_exit(std::span<const Crossing> crossings, const WeldedMesh& mesh) {
     int bodies = 1;  // a ray that begins outside never reaches 0
     while (!crossings.empty()) {
         // What lies closer together than a hit is exact has no order: bodies that touch are one, so the ray
@@ -111,8 +111,7 @@ std::optional<std::uint32_t> RayScene::exit_triangle(std::uint32_t welded, const
         limit = std::min(limit, end);
         return end;
     };
-    // Mostly the first surface is the way out. Where the ray enters another body before, one look to its end
-    // tells.
+    // Mostly the first surface is the exit. Where the ray enters another body first, all crossings are needed.
     triangles_.visit(mesh_.positions()[welded], direction, hit_tolerance, std::cref(visitor));
     if (first_entry <= limit && limit < unlimited) {
         count = 0;
@@ -124,7 +123,7 @@ std::optional<std::uint32_t> RayScene::exit_triangle(std::uint32_t welded, const
     std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
         return a.distance < b.distance || (a.distance == b.distance && a.triangle < b.triangle);
     });
-    return first_way_out(found, mesh_);
+    return first_exit(found, mesh_);
 }
 
 }  // namespace skinglow::detail

@@ -37,26 +37,19 @@ void validate(const ThicknessOptions& options) {
     if (options.threads < 0) refuse_argument("threads", std::to_string(options.threads), "0 (all) or more");
 }
 
-/// Reports a stage's progress as an interval of [0, 1].
-class ProgressStage {
-  public:
-    ProgressStage(const ThicknessProgress& progress, double begin, double end, std::size_t count)
-        : progress_(progress), begin_(begin), end_(end), count_(count) {}
+using Done = std::function<void(std::size_t)>;  ///< told the number done, on the caller's thread
 
-    void operator()(std::size_t done) const {
-        const double fraction = static_cast<double>(done) / static_cast<double>(count_);
-        if (progress_ && !progress_(begin_ + (end_ - begin_) * fraction)) throw ThicknessCancelled();
-    }
-
-  private:
-    const ThicknessProgress& progress_;
-    double begin_, end_;
-    std::size_t count_;
-};
+/// Reports `count` pieces of work as an interval of [0, 1].
+Done stage(const ThicknessProgress& progress, double begin, double end, std::size_t count) {
+    return [&progress, begin, end, count](std::size_t done) {
+        const double fraction = static_cast<double>(done) / static_cast<double>(count);
+        if (progress && !progress(begin + (end - begin) * fraction)) throw ThicknessCancelled();
+    };
+}
 
 /// Not 0 for each triangle that receives less of the sky than `min_sky_visibility`.
 std::vector<std::uint8_t> dark_triangles(const WeldedMesh& mesh, const RayScene& scene,
-                                         const ThicknessOptions& options, const ProgressStage& done) {
+                                         const ThicknessOptions& options, const Done& done) {
     std::vector<std::uint8_t> dark(mesh.triangles().size());
     const auto directions = cosine_directions(sky_rays);
     for_each_block(
@@ -71,7 +64,7 @@ std::vector<std::uint8_t> dark_triangles(const WeldedMesh& mesh, const RayScene&
     return dark;
 }
 
-/// What `measure` returns where no ray finds a way out.
+/// What `measure` returns where no ray finds an exit.
 constexpr double no_exit = std::numeric_limits<double>::infinity();
 
 /// Thickness at a welded vertex, in edges of the unit box.
@@ -105,7 +98,7 @@ double measure(const WeldedMesh& mesh, const RayScene& scene, std::span<const st
 
 std::vector<double> measure_all(const WeldedMesh& mesh, const RayScene& scene,
                                 std::span<const std::uint8_t> dark, const ThicknessOptions& options,
-                                const ProgressStage& done) {
+                                const Done& done) {
     std::vector<double> values(mesh.positions().size());
     const auto directions = cone_directions(options.rays, options.cone_half_angle);
     const std::size_t vertices_per_block = std::max<std::size_t>(1, rays_per_block / directions.size());
@@ -149,11 +142,11 @@ ThicknessReport thickness_report(const MeshView& mesh, const ThicknessOptions& o
         const bool has_dark = options.min_sky_visibility > 0;
         const double dark_end = has_dark ? 0.5 : 0.0;
         const std::vector<std::uint8_t> dark =
-            has_dark
-                ? dark_triangles(body, scene, options, {progress, 0.0, dark_end, body.triangles().size()})
-                : std::vector<std::uint8_t>{};
+            has_dark ? dark_triangles(body, scene, options,
+                                      stage(progress, 0.0, dark_end, body.triangles().size()))
+                     : std::vector<std::uint8_t>{};
         const auto welded =
-            measure_all(body, scene, dark, options, {progress, dark_end, 1.0, body.positions().size()});
+            measure_all(body, scene, dark, options, stage(progress, dark_end, 1.0, body.positions().size()));
         // No welded value is above the box's diagonal; the minimum takes back what rounding may have added.
         for (std::size_t i = 0; i < count; ++i) {
             const double value = welded[body.welded_of()[i]];

@@ -63,37 +63,10 @@ class ObjectReader {
         }
     }
 
-    void read(std::string_view key, double& into, const Limits& limits) const {
-        if (const json* value = find(key)) into = number(*value, key_name(key), limits);
-    }
-
-    void read(std::string_view key, glm::dvec3& into, const Limits& limits) const {
-        const json* value = find(key);
-        if (value == nullptr) return;
-        if (!value->is_array() || value->size() != 3)
-            refuse(key, "is " + shown(*value), "give a list of three numbers");
-        for (int i = 0; i < 3; ++i) {
-            into[i] = number((*value)[static_cast<std::size_t>(i)],
-                             key_name(key) + "[" + std::to_string(i) + "]", limits);
-        }
-    }
-
-    void read(std::string_view key, bool& into, const Limits& /*limits*/) const {
-        const json* value = find(key);
-        if (value == nullptr) return;
-        if (!value->is_boolean()) refuse(key, "is " + shown(*value), "give true or false");
-        into = value->get<bool>();
-    }
-
-    void read(std::string_view key, std::string& into, const Limits& /*limits*/ = {}) const {
-        const json* value = find(key);
-        if (value == nullptr) return;
-        if (!value->is_string()) refuse(key, "is " + shown(*value), "give a text in quotes");
-        into = value->get<std::string>();
-    }
-
-    void read(std::string_view key, AreaShape& into, const Limits& /*limits*/) const {
-        if (find(key) != nullptr) into = named(key, area_shape, "give RECTANGLE, SQUARE, ELLIPSE or DISK");
+    /// The value of a key into what `into` is, if the key is there.
+    template <typename Value>
+    void read(std::string_view key, Value& into, const Limits& limits = {}) const {
+        if (const json* value = find(key)) take(*value, key, into, limits);
     }
 
     /// What a text names, by a function that throws std::invalid_argument on a name it does not know.
@@ -109,6 +82,33 @@ class ObjectReader {
     }
 
   private:
+    void take(const json& value, std::string_view key, double& into, const Limits& limits) const {
+        into = number(value, key_name(key), limits);
+    }
+
+    void take(const json& value, std::string_view key, glm::dvec3& into, const Limits& limits) const {
+        if (!value.is_array() || value.size() != 3)
+            refuse(key, "is " + shown(value), "give a list of three numbers");
+        for (int i = 0; i < 3; ++i) {
+            into[i] = number(value[static_cast<std::size_t>(i)],
+                             key_name(key) + "[" + std::to_string(i) + "]", limits);
+        }
+    }
+
+    void take(const json& value, std::string_view key, bool& into, const Limits& /*limits*/) const {
+        if (!value.is_boolean()) refuse(key, "is " + shown(value), "give true or false");
+        into = value.get<bool>();
+    }
+
+    void take(const json& value, std::string_view key, std::string& into, const Limits& /*limits*/) const {
+        if (!value.is_string()) refuse(key, "is " + shown(value), "give a text in quotes");
+        into = value.get<std::string>();
+    }
+
+    void take(const json& /*value*/, std::string_view key, AreaShape& into, const Limits& /*limits*/) const {
+        into = named(key, area_shape, "give RECTANGLE, SQUARE, ELLIPSE or DISK");
+    }
+
     double number(const json& value, const std::string& name, const Limits& limits) const {
         std::string allowed = "give a number";
         if (limits.min == 0.0)

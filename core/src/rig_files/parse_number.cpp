@@ -2,6 +2,7 @@
 
 #include <fast_float/fast_float.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace skinglow::detail {
@@ -20,6 +21,13 @@ std::optional<double> take_number(std::string_view& text) {
     if (result.ptr == digits.data() || !std::isfinite(value)) return std::nullopt;
     text.remove_prefix(static_cast<std::size_t>(result.ptr - text.data()));
     return value;
+}
+
+std::string_view take_until(std::string_view& rest, char separator) {
+    const std::size_t length = std::min(rest.find(separator), rest.size());
+    const std::string_view part = rest.substr(0, length);
+    rest.remove_prefix(std::min(length + 1, rest.size()));
+    return part;
 }
 
 }  // namespace skinglow::detail

@@ -15,4 +15,9 @@ std::optional<double> parse_number(std::string_view text);
 /// was, where there is none.
 std::optional<double> take_number(std::string_view& text);
 
+/// Cuts a text at its first separator.
+/// @param rest  becomes what follows the separator; empty where there is none
+/// @return the part before it
+std::string_view take_until(std::string_view& rest, char separator);
+
 }  // namespace skinglow::detail

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <glm/geometric.hpp>
+#include <glm/common.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <map>
 #include <string_view>
 
@@ -27,9 +27,7 @@ class StudioLightText {
         const std::string content = read_whole_file(path, max_bytes);
         std::string_view rest = content;
         for (std::size_t line = 1; !rest.empty(); ++line) {
-            const std::size_t length = std::min(rest.find('\n'), rest.size());
-            take_line(rest.substr(0, length), line);
-            rest.remove_prefix(std::min(length + 1, rest.size()));
+            take_line(take_until(rest, '\n'), line);
         }
         if (const double version = number("version"); version != 1.0) {
             refuse_file(path, "is " + to_text(version), "version 1 is read", "key version");
@@ -60,11 +58,9 @@ class StudioLightText {
         while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
         if (line.empty()) return;
         const std::string where = "line " + std::to_string(line_number);
-        const std::size_t space = line.find(' ');
-        const auto value =
-            space == std::string_view::npos ? std::nullopt : parse_number(line.substr(space + 1));
+        const std::string key(take_until(line, ' '));
+        const auto value = parse_number(line);
         if (!value) refuse_file(path_, "is no key with a finite number", remedy, where);
-        const std::string key(line.substr(0, space));
         if (!numbers_.emplace(key, *value).second)
             refuse_file(path_, "names " + key + " a second time", remedy, where);
     }
@@ -74,14 +70,11 @@ class StudioLightText {
 };
 
 void require_orthonormal(const glm::dmat3& camera) {
-    const glm::dmat3 product = glm::transpose(camera) * camera;
+    const glm::dmat3 error = glm::transpose(camera) * camera - glm::dmat3(1.0);
     for (int column = 0; column < 3; ++column) {
-        for (int row = 0; row < 3; ++row) {
-            const double expected = column == row ? 1.0 : 0.0;
-            if (!(std::abs(product[column][row] - expected) < 1e-6)) {
-                refuse_argument("camera", to_text(camera[0]) + to_text(camera[1]) + to_text(camera[2]),
-                                "three perpendicular axes of length 1");
-            }
+        if (!glm::all(glm::lessThan(glm::abs(error[column]), glm::dvec3(1e-6)))) {  // NaN is not below
+            refuse_argument("camera", to_text(camera[0]) + to_text(camera[1]) + to_text(camera[2]),
+                            "three perpendicular axes of length 1");
         }
     }
 }

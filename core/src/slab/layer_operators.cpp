@@ -51,21 +51,13 @@ LayerOperators layer_operators(const LayerModes& modes, double thickness) {
     return layer;
 }
 
-Eigen::VectorXd boundary_reflectance(const StreamGrid& grid, double n_a, double n_b) {
-    const int common = std::min(grid.count(n_a), grid.count(n_b));
-    Eigen::VectorXd reflectance(common);
-    for (int i = 0; i < common; ++i) {
-        reflectance[i] = grid.reflectance(i, n_a, n_b);
-    }
-    return reflectance;
-}
-
 Crossing cross_boundary(const StreamGrid& grid, double n_from, double n_to,
                         const Eigen::MatrixXd& reflection_below) {
     const Eigen::Index from = grid.count(n_from);
     const Eigen::Index to = grid.count(n_to);
     const Eigen::Index common = std::min(from, to);
-    const Eigen::VectorXd r = boundary_reflectance(grid, n_from, n_to);
+    Eigen::VectorXd r(common);
+    for (Eigen::Index i = 0; i < common; ++i) r[i] = grid.reflectance(static_cast<int>(i), n_from, n_to);
     const Eigen::VectorXd passed = Eigen::VectorXd::Ones(common) - r;
     Crossing crossing{Eigen::MatrixXd::Zero(from, from), Eigen::MatrixXd::Zero(to, from)};
     crossing.reflection.diagonal().setOnes();  // total reflection where there is no stream on the other side

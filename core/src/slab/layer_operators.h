@@ -24,9 +24,6 @@ struct LayerOperators {
 /// @param thickness mm, above 0; may be infinite.
 LayerOperators layer_operators(const LayerModes& modes, double thickness);
 
-/// Fresnel reflectances of the streams that exist on both sides; the others are totally reflected.
-Eigen::VectorXd boundary_reflectance(const StreamGrid& grid, double n_a, double n_b);
-
 /// What happens at a boundary with something below that reflects.
 struct Crossing {
     Eigen::MatrixXd reflection;    ///< seen from above the boundary
