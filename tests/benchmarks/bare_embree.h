@@ -11,7 +11,7 @@
 #include <limits>
 #include <span>
 
-/// Rays by Embree and nothing besides: the least that anything built on it can cost.
+/// Rays by Embree alone: a lower bound for what is built on it.
 namespace skinglow::benchmarks {
 
 class BareEmbree {

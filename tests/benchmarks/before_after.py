@@ -262,11 +262,11 @@ def main():
                 for i in (0, 1) if k % 2 else (1, 0):
                     seconds[i].append(builds[i].turn(name, bound)["seconds"])
             ratios = [before / after for before, after in zip(*seconds, strict=True)]
-            low, middle, high = statistics.quantiles(ratios, n=4)
+            low, median, high = statistics.quantiles(ratios, n=4)
             before, after = (f"{statistics.median(values) * 1e3:.4g} ms" for values in seconds)
             print(
                 f"{name:<20} {'1 processor' if bound else 'all':<12} {before:>10} {after:>10}  "
-                f"{middle:7.2f}  ({low:.2f} to {high:.2f}) {difference(*map(np.load, results)):15.1e}",
+                f"{median:7.2f}  ({low:.2f} to {high:.2f}) {difference(*map(np.load, results)):15.1e}",
                 flush=True,
             )
 

@@ -1,11 +1,11 @@
-"""The add-on's whole reaction to a changed lamp, split into reading lamps and skins, computing, and pixels.
+"""The add-on's whole reaction to a changed light, split into reading lights and skins, computing, and pixels.
 
 Run in a Blender whose Python finds skinglow:
 
     python tests/benchmarks/blender_reaction.py            # a bpy wheel
     blender -b -P tests/benchmarks/blender_reaction.py     # the full program; SKINGLOW_SITE: folder of the core
 
-For 1 and 16 lamps and 1 and 8 skins, 300 changes each: medians in microseconds of
+For 1 and 16 lights and 1 and 8 skins, 300 changes each: medians in microseconds of
     reading   the walk through the depsgraph and the signatures
     core      weights and recolored tables
     pixels    rows into the image, the image into the node
@@ -52,13 +52,13 @@ class Stopwatch:
         setattr(owner, name, timed)
 
 
-def build(lamps: int, skins: int) -> list:
+def build(light_count: int, skins: int) -> list:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     collection = bpy.context.scene.collection
     made = []
-    for i in range(lamps):
-        light = bpy.data.lights.new(f"Lamp {i}", ("POINT", "AREA", "SPOT", "SUN")[i % 4])
-        obj = bpy.data.objects.new(f"Lamp {i}", light)
+    for i in range(light_count):
+        light = bpy.data.lights.new(f"Light {i}", ("POINT", "AREA", "SPOT", "SUN")[i % 4])
+        obj = bpy.data.objects.new(f"Light {i}", light)
         obj.location = (i, 1.0, 2.0)
         collection.objects.link(obj)
         made.append(light)
@@ -76,8 +76,8 @@ def median(function: Callable[[int], float]) -> float:
     return 1e6 * statistics.median(function(i) for i in range(CHANGES))
 
 
-def measure(lamps: int, skins: int) -> dict[str, float]:
-    lights = build(lamps, skins)
+def measure(light_count: int, skins: int) -> dict[str, float]:
+    lights = build(light_count, skins)
     watch = Stopwatch()
     originals = {
         (live_update, "read_scene"): "reading",
@@ -90,7 +90,7 @@ def measure(lamps: int, skins: int) -> dict[str, float]:
     kept = {key: getattr(*key) for key in originals}
 
     def change(i: int) -> bpy.types.Depsgraph:
-        lights[i % lamps].color = ((i % 97) / 97, (i % 89) / 89, 0.5)
+        lights[i % light_count].color = ((i % 97) / 97, (i % 89) / 89, 0.5)
         bpy.context.view_layer.update()
         return bpy.context.evaluated_depsgraph_get()
 
@@ -108,7 +108,7 @@ def measure(lamps: int, skins: int) -> dict[str, float]:
         assert not live_update.update_scene(graph)
         return time.perf_counter() - started
 
-    found = {"lamps": lamps, "skins": skins, "whole": median(whole), "idle": median(idle)}
+    found = {"lights": light_count, "skins": skins, "whole": median(whole), "idle": median(idle)}
     parts: dict[str, list[float]] = {"reading": [], "core": [], "pixels": []}
     for key, part in originals.items():
         watch.watch(*key, part)
@@ -131,17 +131,17 @@ def main() -> None:
     handlers.unregister()
     assert skin_tables.compute_table is live_update.compute_table
     results = []
-    print(f"Blender {bpy.app.version_string}: microseconds, medians of {CHANGES} changes of a lamp's color")
-    print(f"{'lamps':>6} {'skins':>6} {'reading':>9} {'core':>9} {'pixels':>9} {'whole':>9} {'idle':>9}")
-    for lamps in (1, 16):
+    print(f"Blender {bpy.app.version_string}: microseconds, medians of {CHANGES} changes of a light's color")
+    print(f"{'lights':>6} {'skins':>6} {'reading':>9} {'core':>9} {'pixels':>9} {'whole':>9} {'idle':>9}")
+    for light_count in (1, 16):
         for skins in (1, 8):
             before = None
-            found = measure(lamps, skins)
+            found = measure(light_count, skins)
             before = {name: len(getattr(bpy.data, name)) for name in ("images", "node_groups", "materials")}
             assert before["images"] == 4 and before["node_groups"] == 1, before
             results.append(found)
             numbers = [found[name] for name in ("reading", "core", "pixels", "whole", "idle")]
-            print(f"{lamps:6d} {skins:6d} " + " ".join(f"{number:9.1f}" for number in numbers))
+            print(f"{light_count:6d} {skins:6d} " + " ".join(f"{number:9.1f}" for number in numbers))
     print(json.dumps({"blender": bpy.app.version_string, "microseconds": results}))
 
 

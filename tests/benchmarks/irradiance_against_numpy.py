@@ -1,8 +1,8 @@
-"""Irradiance per vertex by the core, against vectorized numpy; culling against all lamps; growth.
+"""Irradiance per vertex by the core, against vectorized numpy; culling against all lights; growth.
 
 Run: python tests/benchmarks/irradiance_against_numpy.py     Prints medians and ratios of one run, pair by pair.
-The numpy way leaves out what is hard to write without branches, the cut of an area lamp at a face's horizon, so
-it does less than the core; places where the two differ for that reason alone are not compared.
+The numpy version leaves out what is hard to write without branches, the cut of an area light at a face's horizon, so
+it does less than the core; points at which the two differ for that reason alone are not compared.
 """
 
 import statistics
@@ -32,13 +32,13 @@ def sphere(count, radius=0.1):
 def rig(kinds, count, near=1.0, far=3.0, power=50.0):
     lights = []
     for k in range(count):
-        place = unit(rng.normal(size=3)) * rng.uniform(near, far)
-        aim = -place + rng.normal(size=3) * 0.2
+        position = unit(rng.normal(size=3)) * rng.uniform(near, far)
+        aim = -position + rng.normal(size=3) * 0.2
         lights.append(
             sg.Light(
                 kinds[k % len(kinds)],
                 color=rng.uniform(size=3),
-                position=place,
+                position=position,
                 direction=aim,
                 power=power,
                 spot_angle=1.2,
@@ -72,19 +72,19 @@ def numpy_area(light, points, normals):
 
 
 def numpy_ball(light, points, normals):
-    way = light.position - points
-    square = np.einsum("ij,ij->i", way, way)
-    distance = np.sqrt(square)
-    value = np.maximum(np.einsum("ij,ij->i", way, normals) / distance, 0) / (4 * np.pi * square)
+    offset = light.position - points
+    distance_sq = np.einsum("ij,ij->i", offset, offset)
+    distance = np.sqrt(distance_sq)
+    value = np.maximum(np.einsum("ij,ij->i", offset, normals) / distance, 0) / (4 * np.pi * distance_sq)
     if light.kind == "SPOT":
         edge = np.cos(light.spot_angle / 2)
-        t = (-(way @ unit(light.direction)) / distance - edge) / (light.spot_blend * (1 - edge))
+        t = (-(offset @ unit(light.direction)) / distance - edge) / (light.spot_blend * (1 - edge))
         t = np.clip(t, 0, 1)
         value *= t * t * (3 - 2 * t)
     return value
 
 
-def numpy_way(lights, points, normals):
+def numpy_irradiance(lights, points, normals):
     total = np.zeros_like(points)
     for light in lights:
         if light.kind == "SUN":
@@ -97,27 +97,27 @@ def numpy_way(lights, points, normals):
     return total
 
 
-def medians(ways, rounds):
-    """Each way in turn, so that a drift of the machine's speed meets all alike."""
-    times = {name: [] for name in ways}
+def medians(variants, rounds):
+    """Each variant in turn, so that a drift of the machine's speed meets all alike."""
+    times = {name: [] for name in variants}
     for _ in range(rounds):
-        for name, way in ways.items():
+        for name, variant in variants.items():
             start = time.perf_counter()
-            way()
+            variant()
             times[name].append(time.perf_counter() - start)
     return times
 
 
 def compare(title, lights, count, rounds, against=True):
     points, normals = sphere(count)
-    ways = {
+    variants = {
         "skinglow, all processors": lambda: sg.surface_irradiance(lights, points, normals),
         "skinglow, 1 thread": lambda: sg.surface_irradiance(lights, points, normals, threads=1),
     }
     if against:
-        ways["numpy"] = lambda: numpy_way(lights, points, normals)
-    times = medians(ways, rounds)
-    print(f"\n{title}: {len(points):,} vertices x {len(lights):,} lamps, {rounds} rounds")
+        variants["numpy"] = lambda: numpy_irradiance(lights, points, normals)
+    times = medians(variants, rounds)
+    print(f"\n{title}: {len(points):,} vertices x {len(lights):,} lights, {rounds} rounds")
     # Against one thread of ours, since numpy has one.
     ours = times["skinglow, 1 thread"]
     for name, taken in times.items():
@@ -128,14 +128,14 @@ def compare(title, lights, count, rounds, against=True):
 def check_equal():
     lights = rig(("POINT", "SPOT", "SUN", "AREA"), 16)
     points, normals = sphere(2000)
-    ours, other = sg.surface_irradiance(lights, points, normals), numpy_way(lights, points, normals)
-    # Without the cut an area lamp gives a little less, in the narrow band where its horizon runs through it.
+    ours, other = sg.surface_irradiance(lights, points, normals), numpy_irradiance(lights, points, normals)
+    # Without the cut an area light gives a little less, in the narrow band where its horizon runs through it.
     same = np.isclose(ours, other, rtol=1e-9, atol=1e-12).all(axis=1)
     assert same.mean() > 0.3 and (ours >= other - 1e-9).all()
     no_areas = [light for light in lights if light.kind != "AREA"]
     np.testing.assert_allclose(
         sg.surface_irradiance(no_areas, points, normals),
-        numpy_way(no_areas, points, normals),
+        numpy_irradiance(no_areas, points, normals),
         rtol=1e-12,
         atol=1e-15,
     )
@@ -153,30 +153,30 @@ def culling(count=10_000, matter=100):
     kept = [lights[k] for k in result["kept"]]
     points, normals = sphere(2000)
     lost = abs(sg.surface_irradiance(lights, points, normals) - sg.surface_irradiance(kept, points, normals)).max()
-    print(f"\nculling {count:,} lamps at 1e-3: {len(kept)} kept, bound {result['bound'].max() / whole.max():.2e},")
+    print(f"\nculling {count:,} lights at 1e-3: {len(kept)} kept, bound {result['bound'].max() / whole.max():.2e},")
     print(f"  largest loss found {lost / whole.max():.2e}, groups left out {len(result['dropped'])}")
-    ways = {
-        "cull + kept lamps": lambda: sg.surface_irradiance(
+    variants = {
+        "cull + kept lights": lambda: sg.surface_irradiance(
             [lights[k] for k in tree.cull(low, high, tolerance)["kept"]], points, normals
         ),
-        "kept lamps alone": lambda: sg.surface_irradiance(kept, points, normals),
-        "all lamps": lambda: sg.surface_irradiance(lights, points, normals),
+        "kept lights alone": lambda: sg.surface_irradiance(kept, points, normals),
+        "all lights": lambda: sg.surface_irradiance(lights, points, normals),
         "cull alone": lambda: tree.cull(low, high, tolerance),
         "tree made anew": lambda: sg.PreparedRig(lights),
     }
-    times = medians(ways, 5)
+    times = medians(variants, 5)
     for name, taken in times.items():
         print(f"  {name:26} {statistics.median(taken) * 1e3:9.2f} ms   ({len(points):,} vertices)")
 
 
 if __name__ == "__main__":
     check_equal()
-    compare("mixed lamps", rig(("POINT", "SPOT", "SUN", "AREA"), 16), 100_000, 9)
+    compare("mixed lights", rig(("POINT", "SPOT", "SUN", "AREA"), 16), 100_000, 9)
     for kind in ("POINT", "SPOT", "SUN", "AREA"):
         compare(kind, rig((kind,), 16), 100_000, 5)
-    compare("many lamps", rig(("POINT", "SPOT", "SUN", "AREA"), 1000), 100_000, 1)
+    compare("many lights", rig(("POINT", "SPOT", "SUN", "AREA"), 1000), 100_000, 1)
     for count in (1_000, 10_000, 1_000_000):
         compare("growth with vertices", rig(("POINT", "SPOT", "SUN", "AREA"), 16), count, 3, against=False)
     for count in (4, 64, 256):
-        compare("growth with lamps", rig(("POINT", "SPOT", "SUN", "AREA"), count), 100_000, 3, against=False)
+        compare("growth with lights", rig(("POINT", "SPOT", "SUN", "AREA"), count), 100_000, 3, against=False)
     culling()

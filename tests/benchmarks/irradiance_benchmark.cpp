@@ -1,4 +1,4 @@
-// Irradiance per vertex by kind of lamp, growth with vertices and lamps, and culling of ten thousand lamps:
+// Irradiance per vertex by kind of light, growth with vertices and lights, and culling of ten thousand lights:
 // beside numpy in irradiance_against_numpy.py.
 #include <benchmark/benchmark.h>
 #include <skinglow/rig.h>

@@ -19,7 +19,7 @@ def ball(rings):
 
 
 def moeller_trumbore(vertices, triangles, start, end):
-    """Whether each way meets any triangle, with one numpy expression for all triangles of a way."""
+    """Whether each ray meets any triangle, with one numpy expression for all triangles of a ray."""
     a = vertices[triangles[:, 0]]
     e1, e2 = vertices[triangles[:, 1]] - a, vertices[triangles[:, 2]] - a
     hits = np.zeros(len(start), bool)
@@ -47,20 +47,23 @@ def best_of(function, repeats=3):
 
 def speed():
     random = np.random.default_rng(1)
-    lamp = np.array((0.0, 0.0, 4.0))
-    print("| triangles | skinglow, rays/s (one thread) | numpy, rays/s | ratio | building, ms | ways that differ |")
+    position = np.array((0.0, 0.0, 4.0))
+    print("| triangles | skinglow, rays/s (one thread) | numpy, rays/s | ratio | building, ms | rays that differ |")
     print("| --- | --- | --- | --- | --- | --- |")
     for rings in (16, 64, 256):
         vertices, triangles = ball(rings)
         points = random.uniform(-3, 3, (20000, 3)) * (1, 1, 0) - (0, 0, 2)
         building, scene = best_of(lambda mesh=(vertices, triangles): sg.Occluders([mesh]))
-        light = sg.Light(position=lamp)
+        light = sg.Light(position=position)
         ours, found = best_of(
-            lambda s=scene, p=points, m=light: s.visible_fraction([m], p, lamp - p, threads=1).at_points[:, 0]
+            lambda s=scene, p=points, m=light: s.visible_fraction([m], p, position - p, threads=1).at_points[:, 0]
         )
         few = max(20, 2_000_000 // len(triangles) // 4)
         theirs, hits = best_of(
-            lambda v=vertices, t=triangles, p=points[:few]: moeller_trumbore(v, t, p, np.broadcast_to(lamp, p.shape)), 1
+            lambda v=vertices, t=triangles, p=points[:few]: moeller_trumbore(
+                v, t, p, np.broadcast_to(position, p.shape)
+            ),
+            1,
         )
         rate, other = len(points) / ours, few / theirs
         differ = int(np.sum((found[:few] == 0) != hits))
@@ -71,15 +74,15 @@ def speed():
 
 
 def error():
-    """A straight edge across a lamp, anywhere and at any angle, from one place and from 256."""
+    """A straight edge across a light, anywhere and at any angle, from one point and from 256."""
     random = np.random.default_rng(2)
-    lamps = {
+    lights = {
         "disk": dict(kind="AREA", area_shape="DISK", size_x=1.0, size_y=1.0, position=(0, 0, 2)),
         "rectangle": dict(kind="AREA", area_shape="RECTANGLE", size_x=1.0, size_y=0.5, position=(0, 0, 2)),
         "ball": dict(kind="POINT", radius=0.5, soft_falloff=False, position=(0, 0, 2)),
         "sun": dict(kind="SUN", sun_angle=0.5),
     }
-    place = np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]])
+    point = np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]])
     skin = random.normal(size=(256, 3)) * 0.05, np.tile((0.0, 0.0, 1.0), (256, 1))
     walls = []
     for turn, shift in zip(random.uniform(0, 2 * np.pi, 40), random.uniform(-0.2, 0.2, 40), strict=True):
@@ -87,16 +90,16 @@ def error():
         corner = shift * across - 50 * along + (0, 0, 1)
         corners = np.array([corner, corner + 100 * along, corner + 100 * (along + across), corner + 100 * across])
         walls.append(sg.Occluders([(corners, [[0, 1, 2], [0, 2, 3]])]))
-    print("| lamp | rays a place | RMS error, one place | RMS error of the mean, 256 places | ms, 256 places |")
+    print("| light | rays a point | RMS error, one point | RMS error of the mean, 256 points | ms, 256 points |")
     print("| --- | --- | --- | --- | --- |")
-    for name, settings in lamps.items():
+    for name, settings in lights.items():
         light = [sg.Light(**settings)]
         exact = {
-            id(p): np.array([w.visible_fraction(light, *p, samples=4096).mean[0] for w in walls]) for p in (place, skin)
+            id(p): np.array([w.visible_fraction(light, *p, samples=4096).mean[0] for w in walls]) for p in (point, skin)
         }
         for samples in (1, 4, 16, 64, 256):
             row = [name, str(samples)]
-            for p in (place, skin):
+            for p in (point, skin):
                 found = np.array([w.visible_fraction(light, *p, samples=samples).mean[0] for w in walls])
                 row.append(f"{np.sqrt(np.mean((found - exact[id(p)]) ** 2)):.2g}")
             took, _ = best_of(lambda m=light, n=samples: walls[0].visible_fraction(m, *skin, samples=n, threads=1))

@@ -17,16 +17,16 @@ weight = np.array([2.9, 1.4, 1.6])
 table = sg.recolor(base, weight)
 np.testing.assert_allclose(matrices @ weight, table, rtol=1e-14)
 
-ways = {
+variants = {
     "skinglow.recolor": lambda: sg.recolor(base, weight),
     "numpy: matrices @ weight": lambda: matrices @ weight,
     "numpy: einsum": lambda: np.einsum("kij,j->ki", matrices, weight),
     "copy of the result": table.copy,
 }
-times = {name: [] for name in ways}
+times = {name: [] for name in variants}
 for _ in range(ROUNDS):  # in turn, so that a drift of the machine's speed meets all alike
-    for name, way in ways.items():
-        times[name].append(timeit.timeit(way, number=CALLS) / CALLS)
+    for name, variant in variants.items():
+        times[name].append(timeit.timeit(variant, number=CALLS) / CALLS)
 ours = times["skinglow.recolor"]
 print(f"{SIZE} texels, {ROUNDS} rounds of {CALLS} calls")
 for name, taken in times.items():

@@ -1,4 +1,4 @@
-// Recoloring a table, beside copying the bytes it writes: the least that any way of filling the table costs.
+// Recoloring a table, beside copying the bytes it writes: a lower bound for any way of filling the table.
 #include <benchmark/benchmark.h>
 #include <skinglow/lut.h>
 

@@ -73,10 +73,10 @@ def transmittance(n, coefficients, thickness, streams):
         receiver = shape.T @ ((1 - mirror) / (1 + mirror) * root)
         depth = decay * thickness[:, None]
         passed = np.exp(-depth)
-        reach = -np.expm1(-depth) / decay
-        symmetric = decay * decay * reach / (1 + passed)
-        antisymmetric = (1 + passed) / reach
-        through = 2 * passed / (reach * (1 + passed))
+        lost_per_rate = -np.expm1(-depth) / decay
+        symmetric = decay * decay * lost_per_rate / (1 + passed)
+        antisymmetric = (1 + passed) / lost_per_rate
+        through = 2 * passed / (lost_per_rate * (1 + passed))
         identity = np.eye(len(decay))
         right_side = np.broadcast_to(receiver[:, None], (len(thickness), len(decay), 1))
         lit = np.linalg.solve(load + symmetric[:, :, None] * identity, 4 * right_side)

@@ -3,12 +3,12 @@ pixel (what the add-on does with weights 'Surface'), and a color attribute that 
 
 Run in a Blender whose Python finds skinglow:
 
-    python tests/benchmarks/surface_weights_in_blender.py [LAMPS ...]     # a bpy wheel; default 1 4 8
+    python tests/benchmarks/surface_weights_in_blender.py [LIGHTS ...]     # a bpy wheel; default 1 4 8
 
-For each number of lamps, on a ball of 20,000 vertices, as it is and with a subdivision modifier as characters have:
-    change    from a moved lamp to an evaluated scene, median of 20, ms: the renderer's own work comes on top
-    render    CPU time of a Cycles frame, 128 x 128 at 64 samples, one thread, the least of three, s
-    with skin as lamps   the same with Cycles' own choice of what is a lamp to it, which the add-on takes from skin
+For each number of lights, on a ball of 20,000 vertices, as it is and with a subdivision modifier as characters have:
+    change    from a moved light to an evaluated scene, median of 20, ms: the renderer's own work comes on top
+    render    CPU time of a Cycles frame, 128 x 128 at 64 samples, one thread, the smallest of three, s
+    with skin as lights   the same with Cycles' own choice of what is a light to it, which the add-on takes from skin
 All in one run, with each ratio to the object's one weight.
 """
 
@@ -35,18 +35,18 @@ DEPTH = 0.05
 ATTRIBUTE = "irradiance"
 
 
-def scene_of(lamps: int) -> tuple[bpy.types.Object, list[bpy.types.Object]]:
+def scene_of(count: int) -> tuple[bpy.types.Object, list[bpy.types.Object]]:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.mesh.primitive_uv_sphere_add(segments=SEGMENTS, ring_count=RINGS)
     ball = bpy.context.object
     ball.data.polygons.foreach_set("use_smooth", [True] * len(ball.data.polygons))
     made = []
     rng = np.random.default_rng(1)
-    for i in range(lamps):
-        light = bpy.data.lights.new(f"Lamp {i}", ("POINT", "SPOT")[i % 2])
-        obj = bpy.data.objects.new(f"Lamp {i}", light)
-        place = rng.normal(size=3)
-        obj.location = 3.0 * place / np.linalg.norm(place)
+    for i in range(count):
+        light = bpy.data.lights.new(f"Light {i}", ("POINT", "SPOT")[i % 2])
+        obj = bpy.data.objects.new(f"Light {i}", light)
+        position = rng.normal(size=3)
+        obj.location = 3.0 * position / np.linalg.norm(position)
         obj.rotation_euler = (-obj.location).to_track_quat("-Z", "Y").to_euler()
         bpy.context.collection.objects.link(obj)
         made.append(obj)
@@ -75,7 +75,7 @@ def skin_with(weights: str) -> Callable[[bpy.types.Object], Callable[[], None]]:
 
 
 def with_attribute(ball: bpy.types.Object) -> Callable[[], None]:
-    """M(d) of one thickness in the material, and the light from an attribute; returns what a changed lamp asks for."""
+    """M(d) of one thickness in the material, and the light from an attribute; returns what a changed light asks for."""
     sb.make_skin(ball, thickness=[DEPTH * 1000.0 / 20] * len(ball.data.vertices), mode="physical", weights="object")
     emission = next(n for n in ball.skinglow.group.nodes if n.bl_idname == "ShaderNodeEmission")
     inner = ball.skinglow.group
@@ -95,7 +95,7 @@ def with_attribute(ball: bpy.types.Object) -> Callable[[], None]:
     mesh.attributes.new(ATTRIBUTE, "FLOAT_COLOR", "POINT")
 
     def fill() -> None:
-        lights = [make_light(lamp) for lamp in read_scene(graph()).lights]
+        lights = [make_light(light) for light in read_scene(graph()).lights]
         colors[:, :3] = sg.far_side_irradiance(lights, points, normals, DEPTH)
         mesh.attributes[ATTRIBUTE].data.foreach_set("color", colors.ravel())
         mesh.update()
@@ -107,8 +107,8 @@ def with_attribute(ball: bpy.types.Object) -> Callable[[], None]:
 WAYS = {"object": skin_with("object"), "nodes": skin_with("surface"), "attribute": with_attribute}
 
 
-def measure(way: str, lamps: int, subdivided: bool) -> tuple[float, float, float]:
-    ball, moved = scene_of(lamps)
+def measure(way: str, count: int, subdivided: bool) -> tuple[float, float, float]:
+    ball, moved = scene_of(count)
     fill = WAYS[way](ball)
     if subdivided:
         ball.modifiers.new("Subdivision", "SUBSURF").levels = 1
@@ -140,14 +140,16 @@ def main() -> None:
     numbers = [int(a) for a in sys.argv[1:] if a.isdigit()] or [1, 4, 8]
     print(f"Blender {bpy.app.version_string}")
     for subdivided in (False, True):
-        for lamps in numbers:
+        for count in numbers:
             first = None
             for way in WAYS:
-                found = measure(way, lamps, subdivided)
+                found = measure(way, count, subdivided)
                 first = first or found
                 cells = "  ".join(f"{v:8.2f} ({v / w:5.2f}x)" for v, w in zip(found, first, strict=True))
                 mesh = "subdivided" if subdivided else "as it is"
-                print(f"RESULT {mesh:10} {lamps:2} lamps  {way:9}  change ms, render s, with skin as lamps s: {cells}")
+                print(
+                    f"RESULT {mesh:10} {count:2} lights  {way:9}  change ms, render s, with skin as lights s: {cells}"
+                )
                 sys.stdout.flush()
 
 

@@ -21,14 +21,14 @@ void expect_cube(const TriangleMesh& mesh, const glm::dvec3& low, const glm::dve
                  double tolerance = 1e-12) {
     ASSERT_EQ(mesh.vertices().size(), 8U);
     ASSERT_EQ(mesh.triangles().size(), 12U);
-    glm::dvec3 least = mesh.vertices().front();
-    glm::dvec3 most = least;
+    glm::dvec3 min = mesh.vertices().front();
+    glm::dvec3 max = min;
     for (const glm::dvec3& vertex : mesh.vertices()) {
-        least = glm::min(least, vertex);
-        most = glm::max(most, vertex);
+        min = glm::min(min, vertex);
+        max = glm::max(max, vertex);
     }
-    EXPECT_LT(glm::length(least - low), tolerance);
-    EXPECT_LT(glm::length(most - high), tolerance);
+    EXPECT_LT(glm::length(min - low), tolerance);
+    EXPECT_LT(glm::length(max - high), tolerance);
     const glm::dvec3 size = high - low;
     EXPECT_NEAR(signed_volume(mesh), size.x * size.y * size.z, tolerance * size.x * size.y * 6.0);
 }

@@ -40,17 +40,17 @@ void expect_filled(const Outline& outline, const glm::dvec3& offset = glm::dvec3
     ASSERT_EQ(triangles.size(), outline.size() - 2);
     const glm::dvec3 normal = glm::cross(u, v);
     double area = 0.0;
-    double least = 0.0;
+    double smallest = 0.0;
     for (const glm::uvec3& t : triangles) {
         const double signed_area =
             glm::dot(normal, glm::cross(positions[t.y] - positions[t.x], positions[t.z] - positions[t.x])) /
             2.0;
         area += std::abs(signed_area);
-        least = std::min(least, signed_area);
+        smallest = std::min(smallest, signed_area);
     }
     const double whole = outline_area(outline);
     EXPECT_NEAR(area, whole, 1e-8 * std::abs(whole)) << outline.size() << " corners";
-    EXPECT_GE(least, -1e-9 * std::abs(whole));
+    EXPECT_GE(smallest, -1e-9 * std::abs(whole));
 }
 
 Outline star(std::size_t corners, double inner) {

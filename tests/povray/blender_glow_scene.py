@@ -29,7 +29,7 @@ def main(folder: Path) -> None:
     scene.cycles.samples = job["samples"]
     scene.render.resolution_x, scene.render.resolution_y = job["resolution"]
     scene.render.resolution_percentage = 100
-    if job["samples"] == 1:  # every sample in the middle of its pixel
+    if job["samples"] == 1:  # every sample at the center of its pixel
         scene.cycles.pixel_filter_type = "GAUSSIAN"
         scene.cycles.filter_width = 0.01
     else:
@@ -90,9 +90,9 @@ def lopsided_head(job: dict) -> bpy.types.Object:
 def lut_u(vertices: np.ndarray, job: dict) -> np.ndarray:
     """A thickness that differs everywhere, as image coordinate in a table of the job's size."""
     x, y, z = vertices.astype(float).T
-    share = np.clip(0.5 + 0.25 * np.sin(2.1 * x + 0.4) + 0.2 * np.sin(3.3 * z) + 0.1 * y, 0, 1)
+    fraction = np.clip(0.5 + 0.25 * np.sin(2.1 * x + 0.4) + 0.2 * np.sin(3.3 * z) + 0.1 * y, 0, 1)
     size = len(job["table"])
-    return (share * (size - 1) + 0.5) / size
+    return (fraction * (size - 1) + 0.5) / size
 
 
 def glow_material(job: dict) -> bpy.types.Material:

@@ -19,7 +19,7 @@ using namespace skinglow;
 
 namespace {
 
-/// One triangle before the paper's three lamps.
+/// One triangle before the paper's three lights.
 PovrayScene triangle() {
     PovrayScene scene;
     scene.mesh.geometry = TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});

@@ -12,7 +12,7 @@ from hosts import HOSTS, Host
 from povray_runs import run, write
 
 SCRIPT = Path(__file__).with_name("blender_glow_scene.py")
-LAMPS = [
+LIGHTS = [
     sg.Light("POINT", (1, 0.44, 0.27), (0.92, 0, 0)),
     sg.Light("POINT", (0.06, 0.25, 1), (0, -0.51, 0.68)),
 ]
@@ -32,12 +32,12 @@ def blender(host: Host, folder: Path, job: dict) -> np.ndarray:
 
 def both(tmp_path: Path, host: Host, **job) -> tuple[np.ndarray, np.ndarray]:
     """The picture by Blender and by POV-Ray."""
-    weight = np.array([1.8, 0.5, 0.4]) + sg.light_weight(LAMPS, (0, 0, 0))
+    weight = np.array([1.8, 0.5, 0.4]) + sg.light_weight(LIGHTS, (0, 0, 0))
     job = dict(table=sg.recolor(BASE, weight).tolist(), **job)
     by_blender = blender(host, tmp_path, job)
     with np.load(tmp_path / "scene.npz") as scene:
         files = sg.povray_files(
-            scene["vertices"], scene["triangles"], scene["lut_u"], base=BASE, lights=LAMPS,
+            scene["vertices"], scene["triangles"], scene["lut_u"], base=BASE, lights=LIGHTS,
             camera_matrix=scene["camera_matrix"], projection=scene["projection"],
             resolution=job["resolution"],
         )  # fmt: skip
@@ -69,7 +69,7 @@ def rms(difference: np.ndarray) -> float:
     ("camera", "resolution"), [("PERSP", [320, 240]), ("PERSP", [180, 260]), ("ORTHO", [260, 180])]
 )
 def test_middles_of_pixels(tmp_path, host, camera, resolution):
-    """One sample in the middle of each pixel, so that silhouettes too can be compared."""
+    """One sample at the center of each pixel, so that silhouettes too can be compared."""
     found, expected = both(tmp_path, host, camera=camera, resolution=resolution, samples=1)[::-1]
     inside = away_from_edges(expected)
     assert inside.mean() > 0.15

@@ -49,9 +49,9 @@ def random_lights(count: int, decades: float, seed: int = 7) -> list:
     random = np.random.default_rng(seed)
     kinds = random.choice(["POINT", "SUN", "SPOT", "AREA"], count)
     colors = random.random((count, 3)) * 10.0 ** random.uniform(-decades / 2, decades / 2, (count, 1))
-    places = random.normal(size=(count, 3)) * 3
+    positions = random.normal(size=(count, 3)) * 3
     powers = random.choice([0.0, 1e-12, 5.0, -1.0], count)
-    return [sg.Light(str(k), c, p, power=w) for k, c, p, w in zip(kinds, colors, places, powers, strict=True)]
+    return [sg.Light(str(k), c, p, power=w) for k, c, p, w in zip(kinds, colors, positions, powers, strict=True)]
 
 
 def test_table_1(tmp_path):
@@ -112,10 +112,10 @@ def test_no_lights_and_lights_that_are_off(tmp_path):
     np.testing.assert_array_equal(found, np.zeros((2, 3)))
 
 
-@pytest.mark.parametrize("place", [(0, 0, 0), (1e-30, 0, 0), (1e30, 1e30, 0), (3e-200, 4e-200, 0)])
+@pytest.mark.parametrize("position", [(0, 0, 0), (1e-30, 0, 0), (1e30, 1e30, 0), (3e-200, 4e-200, 0)])
 @pytest.mark.parametrize("color", [(0, 0, 1e-30), (1e6, 1, 0)])
-def test_extreme_places_and_colors(tmp_path, place, color):
-    lights = [sg.Light("POINT", color, place)]
+def test_extreme_positions_and_colors(tmp_path, position, color):
+    lights = [sg.Light("POINT", color, position)]
     for coefficients in ((1, 0, 1), (0, 0, 1e-3), (0, 1e190, 0)):
         expression = light_weight(1, coefficients=sdl_vector(coefficients))
         found = vectors(tmp_path, [expression], sdl_lights(lights))[0]
@@ -131,7 +131,7 @@ def test_terms_of_mixed_lights_agree_with_the_core(tmp_path):
     found = vectors(tmp_path, [f"W[{i}]" for i in range(24)], declared)
     expected = sg.light_weights(lights, point, coefficients)
     np.testing.assert_allclose(found, expected, rtol=1e-12, atol=0)
-    assert np.count_nonzero(found.sum(axis=1) == 0) not in (0, 24)  # lamps on and lamps off are among them
+    assert np.count_nonzero(found.sum(axis=1) == 0) not in (0, 24)  # lights on and lights off are among them
 
 
 def test_ten_thousand_lights_over_twelve_decades_in_any_order(tmp_path):
@@ -147,12 +147,12 @@ def test_ten_thousand_lights_over_twelve_decades_in_any_order(tmp_path):
 def test_recolored_tables(tmp_path, size):
     declared = f"#declare B = Skinglow_Six_Gaussian_Base({size}, 12)\n"
     declared += "#declare T = Skinglow_Recolor(B, Skinglow_Blood, <1.5, 1e6, 0>)\n"
-    places = sorted({0, size // 3, size // 2, size - 1})
-    base = np.array(numbers(tmp_path, [f"B[{i}]" for i in places], declared))
-    found = vectors(tmp_path, [f"T[{i}]" for i in places], declared)
+    entries = sorted({0, size // 3, size // 2, size - 1})
+    base = np.array(numbers(tmp_path, [f"B[{i}]" for i in entries], declared))
+    found = vectors(tmp_path, [f"T[{i}]" for i in entries], declared)
     expected = sg.recolor(sg.BaseLut(base, 12), np.array([1.8, 0.5, 0.4]) + [1.5, 1e6, 0])
     np.testing.assert_allclose(found, expected, rtol=1e-12, atol=0)
-    reference = sg.six_gaussian_base(size, 12).matrices[places, 0, 0]
+    reference = sg.six_gaussian_base(size, 12).matrices[entries, 0, 0]
     np.testing.assert_allclose(base, reference, rtol=1e-12, atol=1e-300)
 
 
@@ -167,7 +167,7 @@ def test_fixed_lookup_agrees_with_the_core(tmp_path):
 LAMP = 'array[1] {"POINT"}', "array[1] {<1,1,1>}", "array[1] {<0,0,1>}", "array[1] {1}"
 
 
-def lamp(**changes: str) -> str:
+def one_light(**changes: str) -> str:
     names = ("kinds", "colors", "positions", "powers")
     arrays = [changes.get(name, usual) for name, usual in zip(names, LAMP, strict=True)]
     declared = "".join(f"#declare {n} = {a}\n" for n, a in zip("ABCD", arrays, strict=True))
@@ -183,17 +183,17 @@ REFUSED = {
     "#declare R = Skinglow_Attenuation(1, <-1,0,1>);": r"coefficient k_c \(constant\) is -1",
     f"#declare R = Skinglow_Attenuation(1, <1,{NAN},1>);": r"coefficient k_l \(linear\) is -?nan",
     "#declare R = Skinglow_Attenuation(1, <1,0,1e400>);": r"coefficient k_q \(quadratic\) is inf",
-    lamp(colors="array[1] {<1,-1e-20,1>}"): "green of color of light 0 is -1.0*e-20",
-    lamp(colors=f"array[1] {{<1,1,{NAN}>}}"): "blue of color of light 0 is -?nan",
-    lamp(positions="array[1] {<1e400,0,0>}"): r"x \(red\) of position of light 0 is inf",
-    lamp(kinds='array[1] {"LASER"}'): 'kind of light 0 is "LASER"; allowed: POINT, SUN, SPOT or AREA',
-    lamp(powers="array[1] {1e400}"): "power of light 0 is inf",
-    lamp(point="<0,1e400,0>"): r"y \(green\) of point is inf",
-    lamp(coefficients="<1,0,-1>"): "k_q",
-    lamp(count="2"): "length of the shortest array of lights is 1.*; allowed: 2 or more",
-    lamp(count="0.5"): "number of lights is 5.0*e-1; allowed: a whole number",
-    lamp(count="-1"): "number of lights is -1",
-    lamp(positions="array[1] {<1.5e308,0,0>}", point="<-1.5e308,0,0>"): "distance of light 0 is inf",
+    one_light(colors="array[1] {<1,-1e-20,1>}"): "green of color of light 0 is -1.0*e-20",
+    one_light(colors=f"array[1] {{<1,1,{NAN}>}}"): "blue of color of light 0 is -?nan",
+    one_light(positions="array[1] {<1e400,0,0>}"): r"x \(red\) of position of light 0 is inf",
+    one_light(kinds='array[1] {"LASER"}'): 'kind of light 0 is "LASER"; allowed: POINT, SUN, SPOT or AREA',
+    one_light(powers="array[1] {1e400}"): "power of light 0 is inf",
+    one_light(point="<0,1e400,0>"): r"y \(green\) of point is inf",
+    one_light(coefficients="<1,0,-1>"): "k_q",
+    one_light(count="2"): "length of the shortest array of lights is 1.*; allowed: 2 or more",
+    one_light(count="0.5"): "number of lights is 5.0*e-1; allowed: a whole number",
+    one_light(count="-1"): "number of lights is -1",
+    one_light(positions="array[1] {<1.5e308,0,0>}", point="<-1.5e308,0,0>"): "distance of light 0 is inf",
     "#declare B = array[2] {1, -1}\n#declare R = Skinglow_Recolor(B, <1,1,1>, <0,0,0>)": (
         "entry 1 of the base lookup is -1"
     ),

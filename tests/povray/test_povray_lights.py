@@ -1,4 +1,4 @@
-"""Blender's watts in POV-Ray: a white matt plane under each kind of lamp, against Blender's measured laws."""
+"""Blender's watts in POV-Ray: a white matt plane under each kind of light, against Blender's measured laws."""
 
 import numpy as np
 import pytest
@@ -26,7 +26,7 @@ def radiance(folder, *lights) -> np.ndarray:
 
 
 def falloff(power: float, x: float = 0.0, radius: float = 0.0) -> np.ndarray:
-    """Irradiance of a point lamp above the plane: P / (4 pi (d^2 + r^2)) times the receiver's cosine."""
+    """Irradiance of a point light above the plane: P / (4 pi (d^2 + r^2)) times the receiver's cosine."""
     d2 = (X - x) ** 2 + HEIGHT_OF_LAMP**2
     return power / (4 * np.pi * (d2 + radius**2)) * HEIGHT_OF_LAMP / np.sqrt(d2)
 
@@ -54,7 +54,7 @@ def test_sun(tmp_path):
 @pytest.mark.parametrize("blend", [0.0, 0.4, 1.0])
 @pytest.mark.parametrize("with_cosine", [False, True])
 def test_spot(tmp_path, blend, with_cosine):
-    lamp = sg.Light(
+    light = sg.Light(
         "SPOT", position=above(), direction=(0.2, 0, -1), power=100, spot_angle=1.6,
         spot_blend=blend, spot_cosine=with_cosine,
     )  # fmt: skip
@@ -62,25 +62,25 @@ def test_spot(tmp_path, blend, with_cosine):
     cosine = (0.2 * X + HEIGHT_OF_LAMP) / d / np.hypot(0.2, 1)
     edge = np.cos(0.8)
     if blend:
-        share = np.clip((cosine - edge) / (blend * (1 - edge)), 0, 1)
-        profile = share * share * (3 - 2 * share)
+        t = np.clip((cosine - edge) / (blend * (1 - edge)), 0, 1)
+        profile = t * t * (3 - 2 * t)
     else:
         profile = (cosine > edge).astype(float)
     profile *= cosine if with_cosine else 1
     assert profile.min() == 0 and profile.max() > 0.9
     expected = falloff(100) * profile / np.pi
-    np.testing.assert_allclose(radiance(tmp_path, lamp), expected, atol=STEP_16_BIT)
+    np.testing.assert_allclose(radiance(tmp_path, light), expected, atol=STEP_16_BIT)
 
 
 @pytest.mark.parametrize(("size", "error"), [(1e-3, 1e-4), (0.6, 0.004)])
 def test_area(tmp_path, size, error):
-    """A Lambert emitter, summed over its face; POV-Ray samples an area at 9 x 9 places."""
-    lamp = sg.Light("AREA", position=above(), power=20, size_x=size, size_y=size)
-    places = size * ((np.arange(64) + 0.5) / 64 - 0.5)
-    dx, dy = np.meshgrid(places, places)
+    """A Lambert emitter, summed over its face; POV-Ray samples an area at 9 x 9 points."""
+    light = sg.Light("AREA", position=above(), power=20, size_x=size, size_y=size)
+    offsets = size * ((np.arange(64) + 0.5) / 64 - 0.5)
+    dx, dy = np.meshgrid(offsets, offsets)
     d2 = (X[:, None, None] - dx) ** 2 + dy**2 + HEIGHT_OF_LAMP**2
     expected = np.mean(20 / np.pi * HEIGHT_OF_LAMP**2 / d2**2, axis=(1, 2)) / np.pi
-    found = radiance(tmp_path, lamp)
+    found = radiance(tmp_path, light)
     np.testing.assert_allclose(found, expected, atol=error * expected.max())
 
 
@@ -98,8 +98,8 @@ def test_spread_is_close_not_equal(tmp_path, spread):
 
 
 def test_negative_power_takes_light_away(tmp_path):
-    lamps = [sg.Light("POINT", position=above(0.3), power=p) for p in (200, -100)]
-    np.testing.assert_allclose(radiance(tmp_path, *lamps), falloff(100, 0.3) / np.pi, atol=STEP_16_BIT)
+    lights = [sg.Light("POINT", position=above(0.3), power=p) for p in (200, -100)]
+    np.testing.assert_allclose(radiance(tmp_path, *lights), falloff(100, 0.3) / np.pi, atol=STEP_16_BIT)
 
 
 def test_cones_of_no_angle_give_nothing(tmp_path):
@@ -112,12 +112,12 @@ def test_cones_of_no_angle_give_nothing(tmp_path):
 
 def test_extreme_lights_are_read_and_say_the_same(tmp_path):
     """Lengths of directions do not matter, to any exponent; spreads go down to none, with a finite picture."""
-    lamps = [
+    lights = [
         sg.Light(kind, position=above(), direction=(0, 0, -length), power=1, spread=0.5, spot_angle=0.5)
         for kind in ("SPOT", "AREA", "SUN")
         for length in (1, 1e-170, 1e200)
     ]
-    found = [radiance(tmp_path, *lamps[i::3]) for i in range(3)]
+    found = [radiance(tmp_path, *lights[i::3]) for i in range(3)]
     assert found[0].max() > 0
     np.testing.assert_allclose(found[1], found[0], atol=STEP_16_BIT)
     np.testing.assert_allclose(found[2], found[0], atol=STEP_16_BIT)

@@ -11,18 +11,18 @@ SQUARE = np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], float)
 TRIANGLES = np.array([(0, 1, 2), (0, 2, 3)])
 FROM_ABOVE = np.diag([1.0, 1.0, 1.0, 1.0])
 FROM_ABOVE[2, 3] = 5
-LAMPS = [
+LIGHTS = [
     sg.Light("POINT", (1, 0.4, 0.2), (0.5, 0, 0.7), power=10, name='a "quoted" \\ lämp'),
     sg.Light("SUN", (0.1, 0.2, 1), power=2),
-    sg.Light("SPOT", (1, 1, 1), (0, 3, 3), power=0, name="lamp without power"),
-    sg.Light("AREA", (1, 1, 1), (0, 3, 3), visible=False, name="lamp unseen"),
+    sg.Light("SPOT", (1, 1, 1), (0, 3, 3), power=0, name="light without power"),
+    sg.Light("AREA", (1, 1, 1), (0, 3, 3), visible=False, name="light unseen"),
 ]
 # Strictly falling, so that each texel has a value of its own.
 BASE = sg.BaseLut(0.3 * np.exp(-np.linspace(0, 3, 16)), 6)
 
 
 def square(lut_u=(0, 1, 1, 0), **changes) -> dict[str, str]:
-    settings = dict(camera_matrix=FROM_ABOVE, resolution=(64, 4), ortho_width=2, base=BASE, lights=LAMPS)
+    settings = dict(camera_matrix=FROM_ABOVE, resolution=(64, 4), ortho_width=2, base=BASE, lights=LIGHTS)
     settings |= changes
     if "size" in settings:
         del settings["base"]
@@ -38,11 +38,11 @@ def picture(folder, files, *arguments) -> np.ndarray:
 
 def along(table: np.ndarray, u: np.ndarray) -> np.ndarray:
     """The lookup at image coordinates: linear between the texels' centers, constant beyond."""
-    places = np.clip(u * len(table) - 0.5, 0, len(table) - 1)
-    return np.stack([np.interp(places, np.arange(len(table)), c) for c in table.T], axis=1)
+    texels = np.clip(u * len(table) - 0.5, 0, len(table) - 1)
+    return np.stack([np.interp(texels, np.arange(len(table)), c) for c in table.T], axis=1)
 
 
-def paper_table(lights=LAMPS) -> np.ndarray:
+def paper_table(lights=LIGHTS) -> np.ndarray:
     return sg.recolor(BASE, np.array([1.8, 0.5, 0.4]) + sg.light_weight(lights, (0, 0, 0)))
 
 
@@ -73,7 +73,7 @@ def test_glow_by_image_is_the_same_to_half_floats(tmp_path):
     write_exr(tmp_path / "lut of head.exr", write_exr_of)
     row = picture(tmp_path, files)
     np.testing.assert_allclose(row, along(paper_table(), U), atol=1e-5, rtol=2.0**-11)
-    assert "Skinglow_Base" not in files["lut.inc"]  # neither base nor lamps: the picture is all it takes
+    assert "Skinglow_Base" not in files["lut.inc"]  # neither base nor lights: the picture is all it takes
 
 
 def test_existing_mode_knows_no_lamp(tmp_path):
@@ -109,8 +109,8 @@ def test_only_what_the_scene_uses_is_emitted():
     assert "Skinglow_Light_Count = 2" in bare["lut.inc"]
     lit = square(surface_color=(0.5, 0.3, 0.2))
     assert lit["lights.inc"].count("light_source {") == 2
-    assert "lamp without power" not in lit["lights.inc"] and "lamp unseen" not in lit["lights.inc"]
-    assert "lights.inc" not in square(surface_color=(0.5, 0.3, 0.2), lights=LAMPS[2:])
+    assert "light without power" not in lit["lights.inc"] and "light unseen" not in lit["lights.inc"]
+    assert "lights.inc" not in square(surface_color=(0.5, 0.3, 0.2), lights=LIGHTS[2:])
     normals = np.array([(0, 0, 1.0)] * 4)
     assert "normal_vectors" not in square(normals=normals)["mesh.inc"]
     assert "normal_vectors" in square(normals=normals, surface_color=(1, 1, 1))["mesh.inc"]
@@ -120,7 +120,7 @@ def test_unused_vertices_are_left_out():
     vertices = np.vstack([SQUARE[:2], [(9, 9, 9)], SQUARE[2:], [(7, 7, 7)]])
     triangles = np.array([(0, 1, 3), (0, 3, 4)])
     u = np.array([0, 1, 0.5, 1, 0, 0.5])
-    same = dict(camera_matrix=FROM_ABOVE, resolution=(64, 4), ortho_width=2, base=BASE, lights=LAMPS)
+    same = dict(camera_matrix=FROM_ABOVE, resolution=(64, 4), ortho_width=2, base=BASE, lights=LIGHTS)
     assert sg.povray_files(vertices, triangles, u, **same) == square()
 
 
@@ -139,8 +139,8 @@ def test_numbers_come_back_as_the_same_doubles():
 
 @pytest.mark.parametrize("name", ["u", "x", "camera", 'He"ad 2', "größe", "*/ #error", "", "ö" * 63])
 def test_names_that_povray_would_stumble_over(tmp_path, name):
-    lamp = sg.Light("POINT", name=name + '\\\n"#error', power=1)
-    files = square(name=name, lights=[lamp], surface_color=(0.1, 0.1, 0.1), resolution=(4, 4))
+    light = sg.Light("POINT", name=name + '\\\n"#error', power=1)
+    files = square(name=name, lights=[light], surface_color=(0.1, 0.1, 0.1), resolution=(4, 4))
     row = picture(tmp_path, files)
     assert row.min() > 0
 

@@ -1,4 +1,4 @@
-"""Other threads of Python run while a call about lights works."""
+"""Other threads of Python run while a call works: about lights, skin and slabs."""
 
 import sys
 import threading
@@ -23,6 +23,10 @@ PIXELS = IMAGE.astype(np.float32)
 WORLD = sg.Environment((1.0, 1.0, 1.0))
 WEIGHT = sg.AngularWeight([0.0, 1.0], [0.5, 1.0])
 SHOWN = sg.SurfaceLighting(MANY, *BOX)
+SKIN = sg.TISSUE_PRESETS["light"]
+LAYERS = [sg.Layer(1.4, 0.5, 20.0, 0.8, 0.1), sg.Layer(1.5, 0.05, 15.0, 0.8, 3.0)]
+CURVE = sg.ThicknessCurve(LAYERS, 1, streams=64)
+LONG = sg.six_gaussian_base(65_536, 12.0)
 
 CALLS: dict[str, Callable[[], object]] = {
     "PreparedRig": lambda: sg.PreparedRig(LIGHTS),
@@ -45,6 +49,19 @@ CALLS: dict[str, Callable[[], object]] = {
     "Environment.irradiance": lambda: WORLD.irradiance(POINTS),
     "AngularWeight": lambda: sg.AngularWeight(COSINES, COSINES + 0.1),
     "AngularWeight.at": lambda: WEIGHT.at(COSINES),
+    "base_lut": lambda: sg.base_lut(SKIN),
+    "base_lut_report": lambda: sg.base_lut_report(SKIN),
+    "reference_lut": lambda: sg.reference_lut(SKIN, 16, 12.0, 16),
+    "transmittance": lambda: sg.transmittance(SKIN, [1.0, 2.0], sg.SAMPLE_WAVELENGTHS_NM),
+    "skin_angular_weight": lambda: sg.skin_angular_weight(SKIN),
+    "lut_error": lambda: sg.lut_error(LONG, LONG),
+    "recolor": lambda: sg.recolor(LONG, (1.0, 0.5, 0.2)),
+    "six_gaussian_lookup": lambda: sg.six_gaussian_lookup(65_536, 12.0),
+    "six_gaussian_base": lambda: sg.six_gaussian_base(65_536, 12.0),
+    "slab": lambda: sg.slab(LAYERS, "diffuse", streams=64),
+    "directional_transmittance": lambda: sg.directional_transmittance(LAYERS, streams=64),
+    "ThicknessCurve": lambda: sg.ThicknessCurve(LAYERS, 1, streams=64),
+    "ThicknessCurve.transmittance": lambda: CURVE.transmittance(COSINES[:1000]),
 }
 
 

@@ -2,12 +2,53 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
+#include <vector>
 
 namespace skinglow {
 namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr int count = 20000;
+constexpr int bins = 10;  // along each of the two coordinates
+/// Of 99 degrees of freedom: exceeded by one sound random sampler in a million, and never by an even one.
+constexpr double chi_square_limit = 176.0;
+
+/// Chi-square of counts in bins of equal probability: by what `fraction` makes of the height, and by azimuth.
+template <typename Fraction>
+double chi_square(const std::vector<glm::dvec3>& directions, const Fraction& fraction) {
+    std::array<double, bins * bins> counts{};
+    for (const glm::dvec3& d : directions) {
+        const double turn = 0.5 + std::atan2(d.y, d.x) / (2 * pi);
+        const auto bin = [](double x) { return std::clamp(static_cast<int>(x * bins), 0, bins - 1); };
+        ++counts[static_cast<std::size_t>(bin(fraction(d.z)) * bins + bin(turn))];
+    }
+    const double expected = static_cast<double>(directions.size()) / (bins * bins);
+    double sum = 0;
+    for (const double found : counts) sum += (found - expected) * (found - expected) / expected;
+    return sum;
+}
+
+TEST(ConeDirections, FallLinearlyInTheCosine) {
+    for (const double half_angle : {0.01, 0.6, 1.5}) {
+        const double height = 1 - std::cos(half_angle);
+        const auto linear = [&](double z) { return 1 - std::pow(1 - (1 - z) / height, 2); };
+        const auto even = [&](double z) { return (1 - z) / height; };
+        EXPECT_LT(chi_square(cone_directions(count, half_angle), linear), chi_square_limit) << half_angle;
+        EXPECT_GT(chi_square(cone_directions(count, half_angle), even), chi_square_limit) << half_angle;
+    }
+}
+
+TEST(CosineDirections, HaveTheCosinesDistribution) {
+    const auto lambert = [](double z) { return 1 - z * z; };
+    const auto even = [](double z) { return 1 - z; };
+    EXPECT_LT(chi_square(cosine_directions(count), lambert), chi_square_limit);
+    EXPECT_GT(chi_square(cosine_directions(count), even), chi_square_limit);
+}
 
 TEST(ConeDirections, StartAtTheAxisAndStayInTheCone) {
     const double half_angle = 0.6;

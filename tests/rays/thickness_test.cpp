@@ -281,8 +281,8 @@ TEST(Thickness, RefusesWhatIsWrongByName) {
     for (const double angle : {-0.1, 1.6, nan}) {
         EXPECT_EQ(refusal(ball, {.cone_half_angle = angle}).find("cone_half_angle"), 0U);
     }
-    for (const double share : {-0.1, 1.1, nan}) {
-        EXPECT_EQ(refusal(ball, {.min_sky_visibility = share}).find("min_sky_visibility"), 0U);
+    for (const double fraction : {-0.1, 1.1, nan}) {
+        EXPECT_EQ(refusal(ball, {.min_sky_visibility = fraction}).find("min_sky_visibility"), 0U);
     }
     EXPECT_EQ(refusal(ball, {.threads = -1}).find("threads"), 0U);
 }

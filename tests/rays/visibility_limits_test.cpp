@@ -52,7 +52,7 @@ TEST(Visibility, AgreesWithBruteForceInDoublePrecision) {
             if (margin < 1e-3) continue;
             ++compared;
             hidden += hit ? 1 : 0;
-            EXPECT_EQ(share(occluders, point_lamp(to), from, to - from), hit ? 0.0 : 1.0) << round;
+            EXPECT_EQ(visible(occluders, point_light(to), from, to - from), hit ? 0.0 : 1.0) << round;
         }
     }
     EXPECT_GT(compared, 3000);
@@ -84,7 +84,7 @@ TEST(Visibility, OfAnySceneIsAShareAndTheSameOnAnyNumberOfThreads) {
         between += value > 0.0 && value < 1.0 ? 1 : 0;
     }
     EXPECT_GT(between, 100);
-    // More in the way never lets more through.
+    // More occluders never let more through.
     std::vector<Mesh> more = meshes;
     more.push_back(half_plane(0.5, 0.5));
     const VisibleFraction less = visible_fraction(occluders_of(more), lights, points, normals);
@@ -98,36 +98,37 @@ TEST(Visibility, HugeScenesKeepWhatIsNearThePlaceAsked) {
         const std::vector<Mesh> meshes{sheet({-1e6, -1e6, -2}, {2e6, 0, 0}, {0, 2e6, 0}),
                                        moved(shapes::sphere(0.02, 3), where + glm::dvec3(0, 0, 0.1))};
         const Occluders occluders = occluders_of(meshes, where);
-        EXPECT_EQ(share(occluders, point_lamp(where + glm::dvec3(0, 0, 1)), where), 0.0);
-        EXPECT_EQ(share(occluders, point_lamp(where + glm::dvec3(0, 0, 1)), where + glm::dvec3(0.03, 0, 0)),
-                  1.0);
-        EXPECT_EQ(share(occluders, point_lamp(where + glm::dvec3(0, 0, 1e6)), where), 0.0);
-        EXPECT_EQ(share(occluders, point_lamp(where + glm::dvec3(0, 0, -3)), where, -up), 0.0);
+        EXPECT_EQ(visible(occluders, point_light(where + glm::dvec3(0, 0, 1)), where), 0.0);
+        EXPECT_EQ(
+            visible(occluders, point_light(where + glm::dvec3(0, 0, 1)), where + glm::dvec3(0.03, 0, 0)),
+            1.0);
+        EXPECT_EQ(visible(occluders, point_light(where + glm::dvec3(0, 0, 1e6)), where), 0.0);
+        EXPECT_EQ(visible(occluders, point_light(where + glm::dvec3(0, 0, -3)), where, -up), 0.0);
     }
 }
 
 TEST(Visibility, ExtremesGiveAShare) {
     const Mesh ball = shapes::sphere(1, 3);
     const Occluders occluders = occluders_of({ball});
-    EXPECT_EQ(share(occluders, point_lamp({0.2, 0, 0}), {0, 0, 3}, -up), 0.0);    // a lamp inside the mesh
-    EXPECT_EQ(share(occluders, point_lamp({0.2, 0, 0}), {0, 0, 0.5}, -up), 1.0);  // and the place, too
-    EXPECT_EQ(share(occluders, point_lamp({3, 0, 0}), {3, 0, 0}), 1.0);           // at distance 0
-    EXPECT_EQ(share(occluders, point_lamp({0, 0, 1e100}), {0, 0, -3}), 0.0);
-    EXPECT_EQ(share(occluders, point_lamp({0, 0, 1e100}), {3, 0, -3}), 1.0);
-    EXPECT_EQ(share(occluders, point_lamp({0, 0, 2}), {0, 0, -1e6}), 0.0);
-    FlatLight wide = area_lamp(AreaShape::ellipse, 1e9, 1e9, 2);
-    const double seen = share(occluders, wide, {0, 0, -2}, up, {.samples = 256});
+    EXPECT_EQ(visible(occluders, point_light({0.2, 0, 0}), {0, 0, 3}, -up), 0.0);  // a light inside the mesh
+    EXPECT_EQ(visible(occluders, point_light({0.2, 0, 0}), {0, 0, 0.5}, -up), 1.0);  // and the point, too
+    EXPECT_EQ(visible(occluders, point_light({3, 0, 0}), {3, 0, 0}), 1.0);           // at distance 0
+    EXPECT_EQ(visible(occluders, point_light({0, 0, 1e100}), {0, 0, -3}), 0.0);
+    EXPECT_EQ(visible(occluders, point_light({0, 0, 1e100}), {3, 0, -3}), 1.0);
+    EXPECT_EQ(visible(occluders, point_light({0, 0, 2}), {0, 0, -1e6}), 0.0);
+    FlatLight wide = area_light(AreaShape::ellipse, 1e9, 1e9, 2);
+    const double seen = visible(occluders, wide, {0, 0, -2}, up, {.samples = 256});
     EXPECT_TRUE(seen > 0.9 && seen <= 1.0) << seen;
     for (const double size : {1e-30, 1e-150, 1e150, 1e300}) {
         const Occluders scaled = occluders_of({moved(ball, {}, size)});
         FlatLight sun;
         sun.kind = LightKind::sun;
-        EXPECT_EQ(share(scaled, sun, {0, 0, -2 * size}), 0.0) << size;
-        EXPECT_EQ(share(scaled, sun, {2 * size, 0, -2 * size}), 1.0) << size;
+        EXPECT_EQ(visible(scaled, sun, {0, 0, -2 * size}), 0.0) << size;
+        EXPECT_EQ(visible(scaled, sun, {2 * size, 0, -2 * size}), 1.0) << size;
     }
-    FlatLight far_up = point_lamp({0, 0, 1e308});
+    FlatLight far_up = point_light({0, 0, 1e308});
     for (const double x : {-1e308, 1e308}) {
-        const double value = share(occluders, far_up, {x, 0, 0});
+        const double value = visible(occluders, far_up, {x, 0, 0});
         EXPECT_TRUE(value >= 0.0 && value <= 1.0);
     }
 }
@@ -136,25 +137,25 @@ TEST(Visibility, TrianglesWithoutAreaStopNothing) {
     const Mesh thin{{{-1, 0, 1}, {1, 0, 1}, {0, 0, 1}, {1e300, 7, 1}}, {{0, 1, 2}, {0, 0, 1}, {2, 2, 2}}};
     const Occluders occluders = occluders_of({thin, {}, {{{0, 0, 1}}, {}}});
     EXPECT_EQ(occluders.triangles(), 0U);
-    EXPECT_EQ(share(occluders, point_lamp({0, 0, 2})), 1.0);
+    EXPECT_EQ(visible(occluders, point_light({0, 0, 2})), 1.0);
     // A vertex that no triangle uses costs the others nothing.
     Mesh ball = moved(shapes::sphere(0.5, 3), {0, 0, 1});
     ball.vertices.emplace_back(1e300, 0, 0);
-    EXPECT_EQ(share(occluders_of({ball}), point_lamp({0, 0, 2})), 0.0);
+    EXPECT_EQ(visible(occluders_of({ball}), point_light({0, 0, 2})), 0.0);
 }
 
 TEST(Visibility, LampsThatGiveNothingAreNotTraced) {
     const Occluders wall = occluders_of({half_plane(-1, 1)});
-    FlatLight off = point_lamp({0, 0, 2});
+    FlatLight off = point_light({0, 0, 2});
     off.visible = false;
     FlatLight dark = off;
     dark.visible = true;
     dark.power = 0;
     FlatLight negative = dark;
     negative.power = -5;
-    EXPECT_EQ(share(wall, off), 1.0);
-    EXPECT_EQ(share(wall, dark), 1.0);
-    EXPECT_EQ(share(wall, negative), 0.0);
+    EXPECT_EQ(visible(wall, off), 1.0);
+    EXPECT_EQ(visible(wall, dark), 1.0);
+    EXPECT_EQ(visible(wall, negative), 0.0);
 }
 
 TEST(Visibility, RefusalsNameTheEntry) {
@@ -174,22 +175,22 @@ TEST(Visibility, RefusalsNameTheEntry) {
     EXPECT_NE(refusal([&] { occluders_of({ends}, glm::dvec3(-1.7e308, 0, 0)); }).find("meshes is as far as"),
               std::string::npos);
     const Occluders occluders = occluders_of({shapes::sphere(1, 1)});
-    const FlatLight lamp = point_lamp({0, 0, 3});
+    const FlatLight light = point_light({0, 0, 3});
     EXPECT_NE(refusal([&] {
-                  share(occluders, lamp, {0, nan, 0});
+                  visible(occluders, light, {0, nan, 0});
               }).find("points[0] is (0, nan, 0)"),
               std::string::npos);
     EXPECT_NE(refusal([&] {
-                  share(occluders, lamp, {}, {nan, 0, 0});
+                  visible(occluders, light, {}, {nan, 0, 0});
               }).find("normals[0]"),
               std::string::npos);
-    EXPECT_NE(refusal([&] { share(occluders, lamp, {}, up, {.samples = 0}); }).find("samples is 0"),
+    EXPECT_NE(refusal([&] { visible(occluders, light, {}, up, {.samples = 0}); }).find("samples is 0"),
               std::string::npos);
-    EXPECT_NE(refusal([&] { share(occluders, lamp, {}, up, {.threads = -1}); }).find("threads is -1"),
+    EXPECT_NE(refusal([&] { visible(occluders, light, {}, up, {.threads = -1}); }).find("threads is -1"),
               std::string::npos);
-    FlatLight broken = lamp;
+    FlatLight broken = light;
     broken.power = nan;
-    EXPECT_NE(refusal([&] { share(occluders, broken); }).find("power is nan"), std::string::npos);
+    EXPECT_NE(refusal([&] { visible(occluders, broken); }).find("power is nan"), std::string::npos);
 }
 
 }  // namespace

@@ -45,13 +45,13 @@ inline Mesh moved(Mesh mesh, const glm::dvec3& by, double scale = 1.0) {
     return mesh;
 }
 
-inline FlatLight point_lamp(const glm::dvec3& position) {
+inline FlatLight point_light(const glm::dvec3& position) {
     FlatLight light;
     light.position = position;
     return light;
 }
 
-inline FlatLight area_lamp(AreaShape shape, double size_x, double size_y, double height) {
+inline FlatLight area_light(AreaShape shape, double size_x, double size_y, double height) {
     FlatLight light;
     light.kind = LightKind::area;
     light.area_shape = shape;
@@ -61,8 +61,8 @@ inline FlatLight area_lamp(AreaShape shape, double size_x, double size_y, double
     return light;
 }
 
-inline double share(const Occluders& occluders, const Light& light, const glm::dvec3& point = glm::dvec3(0),
-                    const glm::dvec3& normal = up, const VisibilityOptions& options = {}) {
+inline double visible(const Occluders& occluders, const Light& light, const glm::dvec3& point = glm::dvec3(0),
+                      const glm::dvec3& normal = up, const VisibilityOptions& options = {}) {
     const VisibleFraction found = visible_fraction(occluders, {light}, {&point, 1}, {&normal, 1}, options);
     EXPECT_DOUBLE_EQ(found.mean[0], found.at_points[0]);
     return found.mean[0];

@@ -20,19 +20,19 @@ std::filesystem::path find_rim() {
 
 std::string replaced(const std::string& from, const std::string& to) {
     std::string text = read_bytes(data_file("two_lamps.sl"));
-    const std::size_t place = text.find(from);
-    if (place == std::string::npos) throw std::runtime_error("no " + from);
-    return text.replace(place, from.size(), to);
+    const std::size_t found = text.find(from);
+    if (found == std::string::npos) throw std::runtime_error("no " + from);
+    return text.replace(found, from.size(), to);
 }
 
 TEST(StudioLight, LampsBecomeSunsInWorldAxes) {
     const StudioLight studio = read_studio_light(data_file("two_lamps.sl"));
-    ASSERT_EQ(studio.lights.size(), 2U) << "lamps with flag 0 are off";
+    ASSERT_EQ(studio.lights.size(), 2U) << "lights with flag 0 are off";
     const Light& rim = studio.lights[0];
     EXPECT_EQ(rim.kind(), LightKind::sun);
     EXPECT_EQ(rim.name(), "light[0]");
     EXPECT_EQ(rim.color(), glm::dvec3(0.9, 0.45, 0.1));
-    // Towards the lamp: right and away from the viewer (view z -0.8), so world (0.6, 0.8, 0); it shines the
+    // Towards the light: right and away from the viewer (view z -0.8), so world (0.6, 0.8, 0); it shines the
     // other way.
     EXPECT_EQ(rim.direction(), glm::dvec3(-0.6, -0.8, 0.0));
     EXPECT_EQ(studio.lights[1].name(), "light[2]");
@@ -55,7 +55,7 @@ TEST(StudioLight, FollowsTheCamera) {
     const StudioLight studio =
         read_studio_light(data_file("two_lamps.sl"), camera_axes({quarter, 0.0, quarter}));
     const glm::dvec3 expected(0.8, -0.6,
-                              0.0);  // towards the lamp: 0.6 right (+Y), 0.8 away from the viewer (-X)
+                              0.0);  // towards the light: 0.6 right (+Y), 0.8 away from the viewer (-X)
     EXPECT_NEAR(glm::distance(studio.lights[0].direction(), expected), 0.0, 1e-15);
     const glm::dmat3 front = camera_axes({quarter, 0.0, 0.0});
     for (int column = 0; column < 3; ++column)
