@@ -87,7 +87,7 @@ void bind_environment(py::module_& m) {
         R"(The world's light as nine spherical-harmonic coefficients (Ramamoorthi and Hanrahan 2001).
 
 radiance  (3,) constant, W/(m^2 sr), 0 or more; or (9, 3) coefficients, orthonormal, order l, m; or an equirectangular
-          image (height, width, 3), row 0 looking up to +z, columns as in Blender (the middle looks along +x, a quarter
+          image (height, width, 3), row 0 looking up to +z, columns as in Blender (the center looks along +x, a quarter
           from the left along +y). Blender's own pixels start at the bottom: flip them.)")
         .def(py::init(&make_environment), "radiance"_a)
         .def_static("from_image", &environment_of_image, "pixels"_a, py::kw_only(),

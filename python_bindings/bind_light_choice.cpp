@@ -58,7 +58,7 @@ void bind_light_choice(py::module_& m) {
         R"(Lights made ready for all that is asked of them. Every function that takes lights takes a rig: it saves
 preparing them again.
 
-lights  sequence of Light; indices in results are places in it. Make it anew when a light changes.)")
+lights  sequence of Light; indices in results are positions in it. Make it anew when a light changes.)")
         .def(py::init(&numpy::to_rig), "lights"_a)
         .def("__len__", &PreparedRig::size)
         .def_property_readonly("lights", &PreparedRig::lights, "[Light]")

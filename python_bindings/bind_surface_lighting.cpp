@@ -67,7 +67,7 @@ beyond max_terms, which shine as if from far away.
 box_min, box_max  (3,), world: of the box that holds the skin
 environment       Environment or None (black); angular_weight  AngularWeight or None (every angle alike)
 max_terms         shader cost is linear in this
-tolerance         an area lamp is cut into tiles until its terms are this near to its irradiance, as a fraction of all the
+tolerance         an area light is cut into tiles until its terms are this near to its irradiance, as a fraction of all the
                   light, at the corners of the box; above 0
 Raises ValueError naming what is wrong.)")
         .def(py::init(&make_lighting), "lights"_a, "box_min"_a, "box_max"_a, "environment"_a = py::none(),

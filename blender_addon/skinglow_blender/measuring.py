@@ -20,7 +20,7 @@ class Measuring:
         core()  # raises here rather than in the thread if it is missing
         self.geometries = geometries  #: by object name
         self.thicknesses: dict[str, tuple[np.ndarray, np.ndarray]] = {}  #: finished meshes, as `measure` returns them
-        self.cancelled = False  #: set it to stop the thread
+        self.canceled = False  #: set it to stop the thread
         self._fraction = 0.0
         self._fault: BaseException | None = None
         self._thread = Thread(target=self._run, name="Skinglow thickness", daemon=True)
@@ -45,7 +45,7 @@ class Measuring:
 
     def cancel(self) -> None:
         """Stops the thread and waits for its end."""
-        self.cancelled = True
+        self.canceled = True
         self._thread.join(MAX_WAIT)
 
     def _run(self) -> None:
@@ -60,4 +60,4 @@ class Measuring:
 
     def _progress(self, fraction: float) -> bool:
         self._fraction = fraction
-        return not self.cancelled
+        return not self.canceled

@@ -64,17 +64,17 @@ class _MeasuringOperator:
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         measuring = _MeasuringOperator.current
         if event.type == "ESC" and event.value == "PRESS":
-            measuring.cancelled = True
+            measuring.canceled = True
             return {"RUNNING_MODAL"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
         _show_progress(context)
         # The thread first finishes a block of vertices. If the user has entered Edit Mode meanwhile, the result waits
         # until they leave it.
-        if measuring.running or (context.mode != "OBJECT" and not measuring.cancelled):
+        if measuring.running or (context.mode != "OBJECT" and not measuring.canceled):
             return {"PASS_THROUGH"}
         self._end(context)
-        if measuring.cancelled:
+        if measuring.canceled:
             self.report({"INFO"}, "Measuring canceled, nothing was changed")
             return {"CANCELLED"}
         try:
@@ -121,7 +121,7 @@ def _object(name: str) -> bpy.types.Object:
 def _show_progress(context: bpy.types.Context) -> None:
     measuring = _MeasuringOperator.current
     names = ", ".join(measuring.geometries)
-    if measuring.cancelled:
+    if measuring.canceled:
         text = f"Canceling: the thickness of {names} is kept"
     elif measuring.running:
         text = f"Measuring the thickness of {names}: {measuring.done:.0%}      Esc: cancel"
@@ -238,7 +238,7 @@ class SKINGLOW_OT_cancel_measuring(bpy.types.Operator):  # noqa: N801
 
     def execute(self, _context: bpy.types.Context) -> set[str]:
         # The operator that started the measurement checks this and ends.
-        _MeasuringOperator.current.cancelled = True
+        _MeasuringOperator.current.canceled = True
         return {"FINISHED"}
 
 

@@ -72,7 +72,7 @@ def _draw_start(layout: bpy.types.UILayout, obj: bpy.types.Object | None, contex
 def _draw_progress(layout: bpy.types.UILayout) -> None:
     measuring = measuring_now()
     row = layout.row(align=True)
-    text = "Canceling" if measuring.cancelled else f"Measuring: {measuring.done:.0%}"
+    text = "Canceling" if measuring.canceled else f"Measuring: {measuring.done:.0%}"
     if hasattr(row, "progress"):
         row.progress(factor=measuring.done, text=text)
     else:

@@ -105,7 +105,7 @@ __all__ = [
     "spectral_color",
     "tabulated_spectrum",
     "transmission_matrix",
-    # Irradiance, and the power of lamps
+    # Irradiance, and the power of lights
     "LEGACY_AREA_POWER_FACTOR",
     "AngularWeight",
     "Environment",
@@ -128,7 +128,7 @@ __all__ = [
     # Light rigs from files
     "LightRig",
     "read_light_rig",
-    # The light at each place of a surface, for materials
+    # The light at each point of a surface, for materials
     "SurfaceLighting",
     # POV-Ray
     "povray_files",

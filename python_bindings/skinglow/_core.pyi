@@ -34,8 +34,8 @@ class Light:
         spot_blend: float = 0.15,
         spot_cosine: bool = False,
         area_shape: Literal["RECTANGLE", "SQUARE", "ELLIPSE", "DISK"] = "RECTANGLE",
-        size_x: float = 0.25,
-        size_y: float = 0.25,
+        size_x: float = 0.001,
+        size_y: float = 0.001,
         tangent: ArrayLike = (1.0, 0.0, 0.0),
         spread: float = 3.141592653589793,
     ) -> None: ...

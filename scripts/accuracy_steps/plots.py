@@ -33,11 +33,11 @@ def _save(figure: plt.Figure, path: Path) -> None:
     plt.close(figure)
 
 
-def _error_against_time(axes: plt.Axes, series: dict[str, list[Point]], labelled: bool) -> None:
+def _error_against_time(axes: plt.Axes, series: dict[str, list[Point]], labeled: bool) -> None:
     for (name, points), color, mark in zip(series.items(), COLORS, MARKS, strict=False):
         shown = [p for p in points if p.error > 1e-13]
         axes.loglog([p.time_ms for p in shown], [p.error for p in shown], color=color, marker=mark, label=name)
-        if labelled:
+        if labeled:
             for p in shown:
                 axes.annotate(p.label, (p.time_ms, p.error), (5, 4), textcoords="offset points", fontsize=8)
     axes.set_xlabel("time, ms, one thread")
@@ -47,7 +47,7 @@ def _error_against_time(axes: plt.Axes, series: dict[str, list[Point]], labelled
 def solver(path: Path, series: dict[str, list[Point]]) -> None:
     """Streams: error against time."""
     figure, axes = plt.subplots(figsize=(7, 4.5))
-    _error_against_time(axes, series, labelled=True)
+    _error_against_time(axes, series, labeled=True)
     axes.set_ylabel(f"largest relative error where T > {task.MIN_TRANSMITTANCE:g}")
     axes.set_title("30 wavelengths x 256 thicknesses, by streams per hemisphere")
     _plain_times(axes)

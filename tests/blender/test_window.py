@@ -82,8 +82,8 @@ def test_redraws_compute_nothing(window: Window) -> None:
 
 def test_escape_cancels_measuring_and_changes_nothing(window: Window) -> None:
     assert window["bake began as"] == ["RUNNING_MODAL"]
-    assert window["cancelling kept the thickness"] is True
-    assert window["rays after cancelling and undo"] == 64
+    assert window["canceling kept the thickness"] is True
+    assert window["rays after canceling and undo"] == 64
 
 
 def test_measuring_in_the_window_can_be_undone(window: Window) -> None:

@@ -30,24 +30,24 @@ struct Mesh {
     }
 };
 
-/// Octahedron, each triangle split in four `levels` times and pushed out to the sphere: 4^(levels + 1) + 2
+/// Octahedron, each triangle split in four `subdivisions` times and pushed out to the sphere: 4^(subdivisions + 1) + 2
 /// vertices.
-inline Mesh sphere(double radius, int levels) {
+inline Mesh sphere(double radius, int subdivisions) {
     Mesh mesh{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
               {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
-    for (int level = 0; level < levels; ++level) {
-        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-        const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-            const auto [entry, is_new] = middles.try_emplace(
+    for (int round = 0; round < subdivisions; ++round) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> midpoints;
+        const auto midpoint = [&](std::uint32_t a, std::uint32_t b) {
+            const auto [entry, is_new] = midpoints.try_emplace(
                 {std::min(a, b), std::max(a, b)}, static_cast<std::uint32_t>(mesh.vertices.size()));
             if (is_new) mesh.vertices.push_back(glm::normalize(mesh.vertices[a] + mesh.vertices[b]));
             return entry->second;
         };
         std::vector<glm::uvec3> finer;
         for (const glm::uvec3& t : mesh.triangles) {
-            const std::uint32_t a = middle(t.x, t.y);
-            const std::uint32_t b = middle(t.y, t.z);
-            const std::uint32_t c = middle(t.z, t.x);
+            const std::uint32_t a = midpoint(t.x, t.y);
+            const std::uint32_t b = midpoint(t.y, t.z);
+            const std::uint32_t c = midpoint(t.z, t.x);
             finer.insert(finer.end(), {{t.x, a, c}, {a, t.y, b}, {c, b, t.z}, {a, b, c}});
         }
         mesh.triangles = std::move(finer);
@@ -57,9 +57,9 @@ inline Mesh sphere(double radius, int levels) {
 }
 
 /// Two spheres that face away from the wall between them; the outer one's vertices come first.
-inline Mesh shell(double outer_radius, double wall, int levels) {
-    Mesh mesh = sphere(outer_radius, levels);
-    Mesh inner = sphere(outer_radius - wall, levels);
+inline Mesh shell(double outer_radius, double wall, int subdivisions) {
+    Mesh mesh = sphere(outer_radius, subdivisions);
+    Mesh inner = sphere(outer_radius - wall, subdivisions);
     inner.flip();
     mesh.append(inner);
     return mesh;

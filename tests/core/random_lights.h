@@ -17,15 +17,15 @@ class RandomScene {
   public:
     explicit RandomScene(unsigned seed) : engine_(seed) {}
 
-    double between(double least, double most) {
-        return std::uniform_real_distribution<double>(least, most)(engine_);
+    double between(double min, double max) {
+        return std::uniform_real_distribution<double>(min, max)(engine_);
     }
-    double decades(double least, double most) {
-        return std::pow(10.0, between(std::log10(least), std::log10(most)));
+    double decades(double min, double max) {
+        return std::pow(10.0, between(std::log10(min), std::log10(max)));
     }
     bool one_in(int n) { return std::uniform_int_distribution<int>(1, n)(engine_) == 1; }
-    glm::dvec3 in_box(const glm::dvec3& least, const glm::dvec3& most) {
-        return {between(least.x, most.x), between(least.y, most.y), between(least.z, most.z)};
+    glm::dvec3 in_box(const glm::dvec3& min, const glm::dvec3& max) {
+        return {between(min.x, max.x), between(min.y, max.y), between(min.z, max.z)};
     }
     glm::dvec3 unit_vector() {
         std::normal_distribution<double> normal;

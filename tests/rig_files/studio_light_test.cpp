@@ -25,7 +25,7 @@ std::string replaced(const std::string& from, const std::string& to) {
     return text.replace(found, from.size(), to);
 }
 
-TEST(StudioLight, LampsBecomeSunsInWorldAxes) {
+TEST(StudioLight, LightsBecomeSunsInWorldAxes) {
     const StudioLight studio = read_studio_light(data_file("two_lamps.sl"));
     ASSERT_EQ(studio.lights.size(), 2U) << "lights with flag 0 are off";
     const Light& rim = studio.lights[0];

@@ -5,6 +5,13 @@
 #include <span>
 #include <vector>
 
+/// How light enters skin by its angle.
+/// @code
+/// const std::vector<double> mu = {0.1, 0.5, 1.0};
+/// const std::vector<double> transmittance = {0.02, 0.05, 0.06};
+/// const skinglow::AngularWeight weight(mu, transmittance);
+/// const glm::dvec3 grazing = weight.at(0.2);
+/// @endcode
 namespace skinglow {
 
 /// w(mu) = max(0, c0 + c1 mu + c2 mu^2 + c3 mu^3) for mu in [0, 1], each channel: for materials, which have no
@@ -14,8 +21,9 @@ using AngularCubic = std::array<glm::dvec3, 4>;
 /// Every angle enters alike.
 constexpr AngularCubic lambert_cubic{glm::dvec3(1.0), glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
 
-/// The cubic at a cosine, clamped to [0, 1]; never below 0, to which shaders clamp it too: the least-squares cubic of a
-/// steep weight may swing below, and light would be taken away.
+/// The cubic at a cosine, not below 0, as in shaders: the least-squares cubic of a steep weight may be negative,
+/// and would subtract light.
+/// @param mu  clamped to [0, 1]
 glm::dvec3 evaluate(const AngularCubic& cubic, double mu);
 
 /// How much more or less of the light that strikes the far side at an angle comes through than of light from
@@ -25,11 +33,14 @@ glm::dvec3 evaluate(const AngularCubic& cubic, double mu);
 /// typical of the object.
 class AngularWeight {
   public:
-    /// @param mu  ascending, in [0, 1], at least 1; @param transmittance  as many, finite, 0 or more, not all
-    /// 0 in a channel; straight between them in mu, constant beyond the ends. Any common factor drops out.
-    /// Throws std::invalid_argument naming the entry.
+    /// Linear between the entries in mu, constant beyond the ends. Any common factor drops out.
+    /// @param mu             ascending, in [0, 1], one or more
+    /// @param transmittance  as many, finite, 0 or more, not all 0 in a channel
+    /// @throws std::invalid_argument naming the entry
     AngularWeight(std::span<const double> mu, std::span<const glm::dvec3> transmittance);
     /// One curve for the three channels.
+    /// @param mu             ascending, in [0, 1], one or more
+    /// @param transmittance  as many, finite, 0 or more, not all 0
     AngularWeight(std::span<const double> mu, std::span<const double> transmittance);
 
     /// w at a cosine, clamped to [0, 1].

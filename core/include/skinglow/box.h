@@ -3,6 +3,11 @@
 #include <glm/vec3.hpp>
 #include <span>
 
+/// Bounding boxes.
+/// @code
+/// const skinglow::Box box = skinglow::box_of(vertices);
+/// const double half_diagonal = box.radius();
+/// @endcode
 namespace skinglow {
 
 /// An axis-aligned bounding box, in the unit of its points.
@@ -22,11 +27,11 @@ struct Box {
     double max_distance(const glm::dvec3& point) const;
 };
 
-/// Throws std::invalid_argument where a corner is not finite or `min` is above `max` along an axis.
+/// @throws std::invalid_argument where a corner is not finite or `min` is above `max` along an axis
 void validate(const Box& box);
 
-/// The smallest box around the points. Throws std::invalid_argument without points, or naming the first that
-/// is not finite.
+/// The smallest box around the points.
+/// @param points  one or more, finite, else std::invalid_argument
 Box box_of(std::span<const glm::dvec3> points);
 
 }  // namespace skinglow

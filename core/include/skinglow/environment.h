@@ -8,9 +8,15 @@
 #include <glm/vec3.hpp>
 #include <span>
 
+/// Light from the world around a scene.
+/// @code
+/// const skinglow::Environment sky(glm::dvec3(0.2, 0.3, 0.5));  // constant radiance
+/// const glm::dvec3 e = sky.irradiance({0, 0, 1});
+/// const skinglow::Environment photo = skinglow::Environment::from_equirectangular({pixels, 2048, 1024, 4});
+/// @endcode
 namespace skinglow {
 
-/// A view of an image of radiance as hosts hold it, so that a large one need not be copied.
+/// A view of an image of radiance as a host stores it, so that a large one need not be copied.
 struct RadianceImage {
     std::span<const float> values;  ///< width * height * channels, row by row, finite
     std::size_t width = 0;
@@ -25,36 +31,43 @@ struct RadianceImage {
 /// yz, 3z^2 - 1, xz, x^2 - y^2). Orthonormal.
 class Environment {
   public:
-    /// The same radiance from everywhere, W/(m^2 sr), finite, 0 or more.
+    /// @param radiance  from every direction, W/(m^2 sr), finite, 0 or more
     explicit Environment(const glm::dvec3& radiance);
 
-    /// From coefficients of the radiance, finite.
+    /// @param coefficients  of the radiance, finite
     explicit Environment(const std::array<glm::dvec3, 9>& coefficients);
 
     /// From an equirectangular image of radiance, as image files have it: row 0 looks up (+z), the last row
-    /// down (Blender's `pixels` start at the bottom: turn them over); columns run as `direction` says.
-    /// @param pixels  width * height of them, row by row, finite. Throws std::invalid_argument naming what is
-    /// wrong.
+    /// down (Blender's `pixels` start at the bottom: flip them); columns run as `direction` says.
+    /// @param pixels  row by row, finite
+    /// @param width   pixels in a row, at least 1
+    /// @param height  rows, at least 1
+    /// @throws std::invalid_argument naming what is wrong
     static Environment from_equirectangular(std::span<const glm::dvec3> pixels, std::size_t width,
                                             std::size_t height);
     /// The same from float32 pixels; each counts with the exact integral of the harmonics over it, so that
-    /// the size of an image costs time and no accuracy.
+    /// a small image costs no accuracy.
+    /// @param image  the pixels as the host stores them
     static Environment from_equirectangular(const RadianceImage& image);
 
     /// From the picture of a mirrored ball seen from far away along +y, with +z up, as Blender's projection
     /// Mirror Ball: the ball fills the square image, whose corners are not read. On a ball equal areas show
     /// equal solid angles; a pixel that the rim cuts counts where its center lies.
+    /// @param image  the square picture
     static Environment from_mirror_ball(const RadianceImage& image);
 
-    /// The same light with the whole world turned: what came from direction d comes from rotation * d.
-    /// @param rotation  orthogonal to 1e-5, a mirroring one too. Throws std::invalid_argument otherwise.
+    /// The same light with the world rotated: what came from direction d comes from rotation * d.
+    /// @param rotation  orthogonal to 1e-5, with or without a reflection, else std::invalid_argument
     Environment rotated(const glm::dmat3& rotation) const;
 
-    /// Unit direction of an image position, u and v in [0, 1] from the left and the bottom, as Blender's
-    /// Environment Texture maps it: the center of the image looks along +x, a quarter from the left +y.
+    /// Unit direction of an image position, as Blender's Environment Texture maps it: the center of the image
+    /// looks along +x, a quarter from the left +y.
+    /// @param u  0 at the left, 1 at the right
+    /// @param v  0 at the bottom, 1 at the top
     static glm::dvec3 direction(double u, double v);
 
-    /// Irradiance on a surface along a unit normal, W/m^2, not below 0; pi L for constant radiance L.
+    /// Irradiance on a surface, W/m^2, not below 0; pi L for constant radiance L.
+    /// @param normal          unit
     /// @param angular_weight  none: every angle enters alike
     glm::dvec3 irradiance(const glm::dvec3& normal, const AngularWeight* angular_weight = nullptr) const;
 
@@ -62,8 +75,9 @@ class Environment {
     /// no normal.
     glm::dvec3 mean_irradiance() const;
 
-    /// `irradiance` before it is held at 0, as coefficients of 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2 of
+    /// `irradiance` before it is clamped at 0, as coefficients of 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2 of
     /// the normal.
+    /// @param angular_weight  none: every angle enters alike
     std::array<glm::dvec3, 9> irradiance_polynomial(const AngularWeight* angular_weight = nullptr) const;
 
     /// An upper bound of |irradiance(n) - mean_irradiance()| over all normals: what one weight for the whole

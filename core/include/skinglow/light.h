@@ -53,8 +53,8 @@ struct SpotLight {
 
 struct AreaLight {
     AreaShape area_shape = AreaShape::rectangle;
-    double size_x = 0.25;  ///< full width along `tangent`, scene unit, 0 (no light, as in Cycles) or more
-    double size_y = 0.25;  ///< full width across it; the default is a new light's in Blender
+    double size_x = 1e-3;  ///< full width along `tangent`, scene unit, 0 (no light, as in Cycles) or more
+    double size_y = 1e-3;  ///< full width across it; as small as the defaults: nearly a point
     glm::dvec3 tangent{1.0, 0.0, 0.0};  ///< world direction of size_x, made perpendicular to the light's
                                         ///< direction; parallel to it, or 0: any perpendicular
     double spread = std::numbers::pi;   ///< full angle it shines into, radians, 0 (no light) to pi (Lambert)

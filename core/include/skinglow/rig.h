@@ -21,7 +21,7 @@
 ///   sun    P, whatever the distance
 ///   area   P / (pi A) radiance, Lambert, from a rectangle or ellipse of area A, times the spread's profile
 /// each cut off by the receiver's horizon. One unit of length is a meter. Lights that are off give 0. Negative
-/// power takes light away. A receiver at the light's position is taken to face it; distances are clamped to
+/// power subtracts light. A receiver at the light's position is taken to face it; distances are clamped to
 /// 1e-6.
 /// @code
 /// const skinglow::PreparedRig rig(lights);
@@ -50,7 +50,7 @@ std::string_view to_text(DropReason reason);
 struct DroppedLights {
     std::vector<std::size_t> lights;  ///< indices, ascending
     DropReason reason;
-    glm::dvec3 bound;  ///< most they give together at any point of the box, for any normal, W/m^2
+    glm::dvec3 bound;  ///< upper bound of what they give at any point of the box, for any normal, W/m^2
 };
 
 struct CullingResult {

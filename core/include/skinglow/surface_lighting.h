@@ -30,7 +30,7 @@ namespace skinglow {
 /// simplifies: the horizon through a wide light (a parabola for the exact segment), the blur of a soft spot's
 /// rim, a ball's 1/d^2 over the object, an area light near by (as a disk on its axis, exact there).
 struct SurfaceTerm {
-    glm::dvec3 position{0.0};      ///< world; of a sun the unit direction towards it
+    glm::dvec3 position{0.0};      ///< world; of a sun the unit direction to it
     double is_positional = 1.0;    ///< 1, of a sun 0
     glm::dvec3 reverse_axis{0.0};  ///< unit, against the direction it shines to; 0 for a point
     double radius_sq = 0.0;        ///< squared radius

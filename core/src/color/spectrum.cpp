@@ -21,14 +21,14 @@ static_assert(tables::color_matching[0][0] == first_sample_nm && tables::d65[0][
               tables::srgb_basis[0][0] == first_sample_nm);
 static_assert(tables::d65[1][0] == first_sample_nm + sample_step_nm);
 
-glm::dvec3 color_matching(std::size_t k) {
-    const double* row = tables::color_matching[k];
+glm::dvec3 columns(const double* row) {
     return {row[1], row[2], row[3]};
 }
-
+glm::dvec3 color_matching(std::size_t k) {
+    return columns(tables::color_matching[k]);
+}
 glm::dvec3 basis(std::size_t k) {
-    const double* row = tables::srgb_basis[k];
-    return {row[1], row[2], row[3]};
+    return columns(tables::srgb_basis[k]);
 }
 
 glm::dvec3 tristimulus(const Spectrum& spectrum) {

@@ -1,7 +1,6 @@
 #include <skinglow/mesh.h>
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 #include <string>
@@ -31,9 +30,7 @@ MeshView::MeshView(std::span<const glm::dvec3> vertices, std::span<const glm::uv
     : vertices_(vertices), triangles_(triangles) {
     require_countable(prefix, vertices.size(), triangles.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const glm::dvec3& v = vertices[i];
-        if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
-            refuse_argument(entry(prefix, "vertices", i), to_text(v), "three finite numbers");
+        require_finite([&] { return entry(prefix, "vertices", i); }, vertices[i]);
     }
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const glm::uvec3& t = triangles[i];

@@ -12,7 +12,7 @@ double length(const glm::dvec3& v) {
 glm::dvec3 unit(const glm::dvec3& v) {
     const double length_sq = glm::dot(v, v);
     if (length_sq > 1e-280 && length_sq < 1e280) return v / std::sqrt(length_sq);
-    // By way of the exponent: a quotient of two subnormal numbers has lost digits, a power of two has not.
+    // By the exponent: a quotient of two subnormal numbers has lost digits, a power of two has not.
     const int exponent = std::ilogb(max_abs(v));
     const glm::dvec3 scaled(std::scalbn(v.x, -exponent), std::scalbn(v.y, -exponent),
                             std::scalbn(v.z, -exponent));
@@ -28,7 +28,7 @@ double max_abs(const glm::dvec3& v) {
 }
 
 glm::dvec3 triangle_normal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    constexpr double min_area = 1e-12;  // of the parallelogram, relative to the longest edge's square
+    constexpr double min_area = 1e-12;  // of the parallelogram, relative to the squared longest edge
     // Halves, because the difference of two huge coordinates may overflow; then at a size of about 1, so that
     // no square over- or underflows.
     glm::dvec3 u = 0.5 * b - 0.5 * a;

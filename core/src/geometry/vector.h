@@ -8,7 +8,7 @@
 
 namespace skinglow::detail {
 
-/// Length that neither over- nor underflows on the way; inf only where it is itself beyond the largest
+/// Length that neither over- nor underflows in between; inf only where it is itself beyond the largest
 /// double.
 double length(const glm::dvec3& v);
 
@@ -32,7 +32,7 @@ glm::dvec3 triangle_normal(const glm::dvec3& a, const glm::dvec3& b, const glm::
 glm::dmat3 frame_around(const glm::dvec3& unit_axis);
 
 /// The same for a direction of any length but 0, with x along the tangent as far as it is perpendicular to
-/// the direction. A tangent parallel to it, or 0, leaves x to chance.
+/// the direction. A tangent parallel to it, or 0, leaves x arbitrary.
 glm::dmat3 frame_around(const glm::dvec3& direction, const glm::dvec3& tangent);
 
 }  // namespace skinglow::detail

@@ -17,7 +17,7 @@ namespace skinglow::detail {
 /// A list of points with each different one kept once, in the order of first appearance.
 struct Weld {
     std::vector<std::uint32_t> first;  ///< for each different point, its first entry in the list
-    std::vector<std::uint32_t> index;  ///< for each entry of the list, its point's place in `first`
+    std::vector<std::uint32_t> index;  ///< for each entry of the list, the index of its point in `first`
 };
 
 /// Hash of a GLM vector of doubles; equal for vectors that compare equal.

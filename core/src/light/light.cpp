@@ -1,6 +1,11 @@
 #include <skinglow/light.h>
+#include <skinglow/spectrum.h>
 
 #include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <numbers>
+#include <type_traits>
 #include <utility>
 
 #include "light/light_fields.h"
@@ -12,28 +17,11 @@ namespace {
 /// In the order of LightKind.
 constexpr std::array<std::string_view, 4> kind_names = {"POINT", "SUN", "SPOT", "AREA"};
 
-bool within(double value, FieldRange range) {
-    return value >= limits(range).min && value <= limits(range).max;  // NaN is not
+bool within(double value, const Limits& limits) {
+    return value >= limits.min && value <= limits.max;  // NaN is not
 }
-bool within(const glm::dvec3& value, FieldRange range) {
-    return within(value.x, range) && within(value.y, range) && within(value.z, range);
-}
-
-std::string allowed(double /*value*/, FieldRange range) {
-    switch (range) {
-        case FieldRange::any:
-            return "a finite number";
-        case FieldRange::not_negative:
-            return "a finite number, 0 or more";
-        case FieldRange::fraction:
-            return "a number of 0 to 1";
-        case FieldRange::half_turn:
-            return "an angle of 0 to pi radians";
-    }
-    return {};
-}
-std::string allowed(const glm::dvec3& /*value*/, FieldRange range) {
-    return range == FieldRange::any ? "three finite numbers" : "three finite numbers, 0 or more";
+bool within(const glm::dvec3& value, const Limits& limits) {
+    return within(value.x, limits) && within(value.y, limits) && within(value.z, limits);
 }
 
 }  // namespace
@@ -65,9 +53,12 @@ Light::Light(LightSettings settings) : settings_(std::move(settings)) {
     };
     for_each_field(settings_, [&](const auto& field, const auto& owner) {
         const auto& value = owner.*field.member;
-        if constexpr (requires { within(value, field.range); }) {
-            if (!within(value, field.range))
-                refuse_argument(named(field.key), to_text(value), allowed(value, field.range));
+        const Limits range = limits(field.range);
+        if constexpr (requires { within(value, range); }) {
+            const bool is_number = std::is_same_v<std::decay_t<decltype(value)>, double>;
+            if (!within(value, range))
+                refuse_argument(named(field.key), to_text(value),
+                                is_number ? range.allowed : range.allowed_vector);
         }
     });
     if (kind() != LightKind::point && direction() == glm::dvec3(0.0))
@@ -78,21 +69,36 @@ bool is_on(const Light& light) {
     return light.visible() && light.power() != 0.0 && light.color() != glm::dvec3(0.0);
 }
 
-namespace detail {
-
-LightShape default_shape(LightKind kind) {
-    switch (kind) {
-        case LightKind::point:
-            return PointLight{};
-        case LightKind::sun:
-            return SunLight{};
-        case LightKind::spot:
-            return SpotLight{};
-        case LightKind::area:
-            return AreaLight{};
-    }
-    return {};
+double legacy_sun_power_factor(double angle) {
+    if (!(angle >= 0 && angle < std::numbers::pi))
+        refuse_argument("angle", to_text(angle), "0 to below pi radians");
+    const double cosine = std::cos(0.5 * angle);
+    return 2 * cosine / (1 + cosine);
 }
 
-}  // namespace detail
+double exposure_factor(double stops) {
+    require_finite("exposure", stops);
+    return require_finite("2^exposure", std::exp2(stops));
+}
+
+double unnormalized_power_factor(const Light& light) {
+    constexpr double pi = std::numbers::pi;
+    const auto factor = [](const auto& shape) {
+        if constexpr (requires { shape.radius; }) {
+            return 4 * pi * shape.radius * shape.radius;
+        } else if constexpr (requires { shape.sun_angle; }) {
+            return pi * std::sin(0.5 * shape.sun_angle) * std::sin(0.5 * shape.sun_angle);
+        } else {
+            return shape.size_x * shape.size_y * (shape.area_shape == AreaShape::ellipse ? pi / 4 : 1.0);
+        }
+    };
+    return std::visit(factor, light.shape());
+}
+
+glm::dvec3 black_body_color(double kelvin) {
+    if (!(kelvin >= 800 && kelvin <= 20000))
+        refuse_argument("temperature", to_text(kelvin), "800 to 20000 K");
+    return glm::max(spectral_color(blackbody_spectrum(kelvin)), 0.0);
+}
+
 }  // namespace skinglow

@@ -2,6 +2,7 @@
 
 #include <skinglow/light.h>
 
+#include <array>
 #include <limits>
 #include <numbers>
 #include <string_view>
@@ -19,20 +20,19 @@ enum class FieldRange { any, not_negative, fraction, half_turn };
 
 struct Limits {
     double min, max;
+    std::string_view allowed = {};
+    std::string_view allowed_vector = {};
 };
 constexpr double largest_double = std::numeric_limits<double>::max();
+constexpr double half_turn = std::numbers::pi_v<float>;  // a host's single-precision pi is a little above pi
 constexpr Limits limits(FieldRange range) {
-    switch (range) {
-        case FieldRange::any:
-            return {-largest_double, largest_double};
-        case FieldRange::not_negative:
-            return {0.0, largest_double};
-        case FieldRange::fraction:
-            return {0.0, 1.0};
-        case FieldRange::half_turn:
-            return {0.0, std::numbers::pi_v<float>};  // a host's single-precision pi is a little above pi
-    }
-    return {};
+    constexpr std::array<Limits, 4> table = {{
+        {-largest_double, largest_double, "a finite number", "three finite numbers"},
+        {0.0, largest_double, "a finite number, 0 or more", "three finite numbers, 0 or more"},
+        {0.0, 1.0, "a number of 0 to 1"},
+        {0.0, half_turn, "an angle of 0 to pi radians"},
+    }};
+    return table[static_cast<std::size_t>(range)];
 }
 
 template <typename Owner, typename Value>
@@ -99,6 +99,9 @@ void for_each_field(Settings& light, const Visit& visit) {
 }
 
 /// The shape of a kind, every field at its default.
-LightShape default_shape(LightKind kind);
+inline LightShape default_shape(LightKind kind) {
+    const std::array<LightShape, 4> shapes = {PointLight{}, SunLight{}, SpotLight{}, AreaLight{}};
+    return shapes[static_cast<std::size_t>(kind)];
+}
 
 }  // namespace skinglow::detail

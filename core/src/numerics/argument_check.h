@@ -38,38 +38,37 @@ template <ArgumentName Name, typename Value>
     }
 }
 
-/// Each throws std::invalid_argument that names the argument, its value and what is allowed; else returns the
-/// value.
-template <ArgumentName Name>
-double require_finite(const Name& name, double value) {
-    if (!std::isfinite(value)) refuse_value(name, value, "a finite number");
-    return value;
-}
-template <ArgumentName Name>
-double require_not_negative(const Name& name, double value) {
-    if (!(std::isfinite(value) && value >= 0)) refuse_value(name, value, "a finite number, 0 or more");
-    return value;
-}
-template <ArgumentName Name>
-double require_positive(const Name& name, double value) {
-    if (!(std::isfinite(value) && value > 0)) refuse_value(name, value, "a finite number above 0");
-    return value;
-}
-
 inline bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
-template <ArgumentName Name>
-glm::dvec3 require_finite(const Name& name, const glm::dvec3& value) {
-    if (!is_finite(value)) refuse_value(name, value, "three finite numbers");
+
+/// Each throws std::invalid_argument that names the argument, its value and what is allowed; else returns the
+/// value.
+template <ArgumentName Name, typename Value>
+Value require(const Name& name, const Value& value, bool is_allowed, std::string_view allowed) {
+    if (!is_allowed) refuse_value(name, value, allowed);
     return value;
 }
 template <ArgumentName Name>
+double require_finite(const Name& name, double value) {
+    return require(name, value, std::isfinite(value), "a finite number");
+}
+template <ArgumentName Name>
+double require_not_negative(const Name& name, double value) {
+    return require(name, value, std::isfinite(value) && value >= 0, "a finite number, 0 or more");
+}
+template <ArgumentName Name>
+double require_positive(const Name& name, double value) {
+    return require(name, value, std::isfinite(value) && value > 0, "a finite number above 0");
+}
+template <ArgumentName Name>
+glm::dvec3 require_finite(const Name& name, const glm::dvec3& value) {
+    return require(name, value, is_finite(value), "three finite numbers");
+}
+template <ArgumentName Name>
 glm::dvec3 require_not_negative(const Name& name, const glm::dvec3& value) {
-    if (!(is_finite(value) && value.x >= 0 && value.y >= 0 && value.z >= 0)) {
-        refuse_value(name, value, "three finite numbers, 0 or more");
-    }
-    return value;
+    return require(name, value, is_finite(value) && value.x >= 0 && value.y >= 0 && value.z >= 0,
+                   "three finite numbers, 0 or more");
 }
 
 }  // namespace skinglow::detail

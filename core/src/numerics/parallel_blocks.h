@@ -7,15 +7,12 @@
 
 namespace skinglow::detail {
 
-/// Does `work(begin, end)` for blocks that together are 0 to count, each once, on several threads: the
-/// caller's and helpers, all joined on return. Plain threads, so that no library's pool is shared with a
-/// host's.
+/// Calls `work(begin, end)` for blocks that together are 0 to count, each once, on several threads: the caller's and
+/// helpers, all joined on return. Plain threads, so that no pool is shared with a host's library. What `work` or `done`
+/// throws first stops the rest and is rethrown.
 /// @param threads  0: one for each processor
-/// @param done     told the number finished so far after each block that the calling thread does; may be
-/// empty
-/// @param block  how many go to a thread at once: some milliseconds of work, which is long against a
-/// block's cost and short against a person's patience with a cancel button
-/// What `work` or `done` throws stops the rest and is thrown on.
+/// @param done     told the number finished so far after each block that the calling thread does; may be empty
+/// @param block    items per task: amortizes scheduling, and keeps canceling responsive (some milliseconds)
 void for_each_block(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& work,
                     const std::function<void(std::size_t)>& done, std::size_t block = 128);
 

@@ -1,9 +1,11 @@
 #include "numerics/quadrature.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <utility>
 
 namespace skinglow::detail {
 namespace {
@@ -46,42 +48,36 @@ Quadrature make_radau_rule(std::size_t count, FixedNode end) {
     Quadrature rule = rule_of_jacobi_matrix(diagonal, off);
     rule.node.back() = 1;
     if (end == FixedNode::at_one) return rule;
-    Quadrature mirrored;
-    for (std::size_t i = rule.node.size(); i-- > 0;) {
-        mirrored.node.push_back(1 - rule.node[i]);
-        mirrored.weight.push_back(rule.weight[i]);
-    }
-    return mirrored;
+    std::ranges::reverse(rule.node);
+    std::ranges::reverse(rule.weight);
+    for (double& node : rule.node) node = 1 - node;
+    return rule;
 }
 
-// The rules made so far, by number of nodes.
-class RuleCache {
-  public:
-    template <typename Make>
-    const Quadrature& rule(std::size_t count, const Make& make) {
-        const std::scoped_lock lock(mutex_);
-        const auto found = rules_.find(count);
-        return found != rules_.end() ? found->second : rules_.emplace(count, make()).first->second;
-    }
+enum class Family { gauss, radau_at_zero, radau_at_one };
 
-  private:
-    std::mutex mutex_;
-    std::map<std::size_t, Quadrature> rules_;  // which leaves its entries where they are
-};
+// Each rule is made once.
+const Quadrature& kept_rule(Family family, std::size_t count) {
+    static std::mutex mutex;
+    static std::map<std::pair<Family, std::size_t>, Quadrature>
+        rules;  // which leaves its entries where they are
+    const std::scoped_lock lock(mutex);
+    const std::pair key(family, count);
+    const auto found = rules.find(key);
+    if (found != rules.end()) return found->second;
+    const FixedNode end = family == Family::radau_at_one ? FixedNode::at_one : FixedNode::at_zero;
+    return rules.emplace(key, family == Family::gauss ? make_gauss_rule(count) : make_radau_rule(count, end))
+        .first->second;
+}
 
 }  // namespace
 
 const Quadrature& gauss_rule(std::size_t count) {
-    static RuleCache cache;
-    return cache.rule(count, [&] { return make_gauss_rule(count); });
+    return kept_rule(Family::gauss, count);
 }
 
 const Quadrature& radau_rule(std::size_t count, FixedNode end) {
-    static RuleCache at_zero;
-    static RuleCache at_one;
-    return (end == FixedNode::at_zero ? at_zero : at_one).rule(count, [&] {
-        return make_radau_rule(count, end);
-    });
+    return kept_rule(end == FixedNode::at_zero ? Family::radau_at_zero : Family::radau_at_one, count);
 }
 
 }  // namespace skinglow::detail

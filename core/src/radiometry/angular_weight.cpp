@@ -18,12 +18,10 @@ void validate_curve(std::span<const double> mu, std::span<const glm::dvec3> tran
                         "as many as mu has entries (" + std::to_string(mu.size()) + "), at least 1");
     }
     for (std::size_t i = 0; i < mu.size(); ++i) {
-        const std::string entry = "[" + std::to_string(i) + "]";
-        if (!(mu[i] >= 0.0 && mu[i] <= 1.0))
-            refuse_argument("mu" + entry, to_text(mu[i]), "a cosine of 0 to 1");
+        if (!(mu[i] >= 0.0 && mu[i] <= 1.0)) refuse_value(entry_name("mu", i), mu[i], "a cosine of 0 to 1");
         if (i > 0 && mu[i] <= mu[i - 1])
-            refuse_argument("mu" + entry, to_text(mu[i]), "above the entry before it");
-        require_not_negative("transmittance" + entry, transmittance[i]);
+            refuse_value(entry_name("mu", i), mu[i], "above the entry before it");
+        require_not_negative(entry_name("transmittance", i), transmittance[i]);
     }
 }
 
@@ -36,17 +34,10 @@ glm::dvec3 interpolate(std::span<const double> mu, std::span<const glm::dvec3> v
     return values[i - 1] * (1.0 - t) + values[i] * t;
 }
 
-std::vector<glm::dvec3> gray(std::span<const double> values) {
-    std::vector<glm::dvec3> rgb;
-    rgb.reserve(values.size());
-    for (const double value : values) rgb.emplace_back(value);
-    return rgb;
-}
-
 }  // namespace
 
 AngularWeight::AngularWeight(std::span<const double> mu, std::span<const double> transmittance)
-    : AngularWeight(mu, gray(transmittance)) {}
+    : AngularWeight(mu, std::vector<glm::dvec3>(transmittance.begin(), transmittance.end())) {}
 
 AngularWeight::AngularWeight(std::span<const double> mu, std::span<const glm::dvec3> transmittance) {
     validate_curve(mu, transmittance);
@@ -69,17 +60,16 @@ AngularWeight::AngularWeight(std::span<const double> mu, std::span<const glm::dv
             integral[2] += term * (1.5 * x * x - 0.5);
         }
     }
+    const glm::dvec3 diffuse = 2.0 * integral[0];
     for (int channel = 0; channel < 3; ++channel) {
-        const double diffuse = 2.0 * integral[0][channel];
-        if (!(diffuse > 0.0)) refuse_argument("transmittance for diffuse light", to_text(diffuse), "above 0");
-        for (glm::dvec3& entry : table_) entry[channel] /= diffuse;
-        for (std::size_t band = 0; band < 3; ++band) {
-            band_factors_[band][channel] = 2.0 * std::numbers::pi * integral[band][channel] / diffuse;
-        }
+        if (!(diffuse[channel] > 0.0))
+            refuse_argument("transmittance for diffuse light", to_text(diffuse[channel]), "above 0");
     }
-    for (const glm::dvec3& entry : table_) {
-        for (int channel = 0; channel < 3; ++channel)
-            largest_[channel] = std::max(largest_[channel], entry[channel]);
+    for (std::size_t band = 0; band < 3; ++band)
+        band_factors_[band] = 2.0 * std::numbers::pi * integral[band] / diffuse;
+    for (glm::dvec3& entry : table_) {
+        entry /= diffuse;
+        largest_ = glm::max(largest_, entry);
     }
 }
 
@@ -102,23 +92,17 @@ AngularCubic AngularWeight::cubic() const {
     Eigen::Matrix<double, 5, 3> right = Eigen::Matrix<double, 5, 3>::Zero();
     for (std::size_t i = 0; i <= intervals; ++i) {
         const double mu = static_cast<double>(i) / intervals;
-        const std::array<double, 4> power = {1.0, mu, mu * mu, mu * mu * mu};
-        for (int j = 0; j < 4; ++j) {
-            for (int k = 0; k < 4; ++k) {
-                system(j, k) +=
-                    mu * mu * power[static_cast<std::size_t>(j)] * power[static_cast<std::size_t>(k)];
-            }
-            for (int channel = 0; channel < 3; ++channel)
-                right(j, channel) += mu * mu * power[static_cast<std::size_t>(j)] * table_[i][channel];
-        }
+        const Eigen::Vector4d power = mu * Eigen::Vector4d(1.0, mu, mu * mu, mu * mu * mu);
+        system.topLeftCorner<4, 4>() += power * power.transpose();
+        right.topRows<4>() += mu * power * Eigen::RowVector3d(table_[i].r, table_[i].g, table_[i].b);
     }
     for (int j = 0; j < 4; ++j) system(4, j) = system(j, 4) = 2.0 / (j + 2.0);
     right.row(4).setOnes();
     const Eigen::Matrix<double, 5, 3> solution = system.fullPivLu().solve(right);
     AngularCubic cubic{};
-    for (int j = 0; j < 4; ++j) {
-        for (int channel = 0; channel < 3; ++channel)
-            cubic[static_cast<std::size_t>(j)][channel] = solution(j, channel);
+    for (std::size_t j = 0; j < cubic.size(); ++j) {
+        const auto row = static_cast<Eigen::Index>(j);
+        cubic[j] = {solution(row, 0), solution(row, 1), solution(row, 2)};
     }
     return cubic;
 }

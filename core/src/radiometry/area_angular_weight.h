@@ -18,24 +18,24 @@ namespace skinglow::detail {
 /// radius and evenly around it. Errors: docs/accuracy.md.
 class AreaAngularWeight {
   public:
-    /// @param light  of kind area; @param angular_weight  has to outlive this
+    /// @param light           of kind area
+    /// @param angular_weight  has to outlive this
     AreaAngularWeight(const PreparedLight& light, const AngularWeight& angular_weight);
 
-    /// @param normal  unit; @return each channel, between the smallest and the largest weight
+    /// @param normal  unit
+    /// @return each channel, between the smallest and the largest weight
     glm::dvec3 mean(const glm::dvec3& point, const glm::dvec3& normal) const;
 
-  private:
     struct Node {
         glm::dvec3 position;  ///< world
         double fraction;      ///< of the light's area
     };
-    using Nodes = std::vector<Node>;
 
+  private:
     PreparedLight light_;
     const AngularWeight& angular_weight_;
-    double half_diagonal_;
-    Nodes few_;
-    Nodes many_;
+    std::vector<Node> few_;
+    std::vector<Node> many_;
 };
 
 }  // namespace skinglow::detail

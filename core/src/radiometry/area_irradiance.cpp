@@ -62,38 +62,32 @@ double lambert_edge(const glm::dvec2& a, const glm::dvec2& b, const Receiver& re
     return -0.5 * std::atan2(length, glm::dot(to_a, to_b)) * glm::dot(receiver.normal, across) / length;
 }
 
-/// The ellipse's rim from one eccentric angle to another, counter-clockwise, as a function to integrate.
-class RimIntegrand {
-  public:
-    RimIntegrand(double half_x, double half_y, const Receiver& receiver, const SpreadIntegral* spread)
-        : half_x_(half_x), half_y_(half_y), receiver_(receiver), spread_(spread) {}
+/// The ellipse's rim, counter-clockwise, as a function of the eccentric angle to integrate.
+struct RimIntegrand {
+    glm::dvec2 half;
+    Receiver receiver;
+    const SpreadIntegral* spread;  ///< none: Lambert
 
-    double operator()(double angle) const { return at(std::cos(angle), std::sin(angle)); }
+    double operator()(double angle) const { return at({std::cos(angle), std::sin(angle)}); }
 
-    double at(double cosine, double sine) const {
-        const glm::dvec3 to_rim = glm::dvec3(half_x_ * cosine, half_y_ * sine, 0.0) - receiver_.point;
-        const glm::dvec3 motion(-half_x_ * sine, half_y_ * cosine, 0.0);
-        if (spread_ == nullptr) {
-            return -0.5 * glm::dot(receiver_.normal, glm::cross(to_rim, motion)) / glm::dot(to_rim, to_rim);
+    double at(const glm::dvec2& unit) const {
+        const glm::dvec3 to_rim = glm::dvec3(half * unit, 0.0) - receiver.point;
+        const glm::dvec3 motion(-half.x * unit.y, half.y * unit.x, 0.0);
+        if (spread == nullptr) {
+            return -0.5 * glm::dot(receiver.normal, glm::cross(to_rim, motion)) / glm::dot(to_rim, to_rim);
         }
-        const double foot_distance_sq = to_rim.x * to_rim.x + to_rim.y * to_rim.y;
-        if (foot_distance_sq == 0.0) return 0.0;
-        const double distance = std::sqrt(foot_distance_sq);
-        const glm::dvec2 c = spread_->coefficients(distance / receiver_.point.z);
-        const double wedge = (to_rim.x * motion.y - to_rim.y * motion.x) / foot_distance_sq;
-        const double along = (receiver_.normal.x * to_rim.x + receiver_.normal.y * to_rim.y) / distance;
-        return wedge * (-receiver_.normal.z * c.x + along * c.y);
+        const glm::dvec2 foot_to_rim(to_rim);
+        const double distance_sq = glm::dot(foot_to_rim, foot_to_rim);
+        if (distance_sq == 0.0) return 0.0;
+        const double wedge = (to_rim.x * motion.y - to_rim.y * motion.x) / distance_sq;
+        return wedge * spread->along_ray(foot_to_rim / receiver.point.z, receiver.normal);
     }
 
-    double distance_to(double angle) const {
-        return glm::distance(receiver_.point,
-                             glm::dvec3(half_x_ * std::cos(angle), half_y_ * std::sin(angle), 0.0));
-    }
+    glm::dvec2 point(double angle) const { return half * glm::dvec2(std::cos(angle), std::sin(angle)); }
     /// Eccentric angle of the rim point nearest to the receiver, by circles of curvature.
     double nearest_angle() const {
-        const glm::dvec2 half(half_x_, half_y_);
-        const glm::dvec2 foot = glm::abs(glm::dvec2(receiver_.point));
-        const double focal_sq = half_x_ * half_x_ - half_y_ * half_y_;
+        const glm::dvec2 foot = glm::abs(glm::dvec2(receiver.point));
+        const double focal_sq = half.x * half.x - half.y * half.y;
         glm::dvec2 t(std::numbers::sqrt2 / 2);  // cosine and sine of the angle, in the first quadrant
         for (int step = 0; step < 6; ++step) {
             const glm::dvec2 center = glm::dvec2(focal_sq, -focal_sq) * t * t * t / half;
@@ -103,18 +97,12 @@ class RimIntegrand {
             if (!(glm::length(next) > 0.0)) break;
             t = glm::normalize(next);
         }
-        return std::atan2(std::copysign(t.y, receiver_.point.y), std::copysign(t.x, receiver_.point.x));
+        return std::atan2(std::copysign(t.y, receiver.point.y), std::copysign(t.x, receiver.point.x));
     }
-
-  private:
-    double half_x_;
-    double half_y_;
-    Receiver receiver_;
-    const SpreadIntegral* spread_;
 };
 
-/// Pieces that shrink towards the point of the rim next to the receiver, so that a rule meets no feature
-/// narrower than its piece; then halved where they still disagree.
+/// Subdivision graded towards the rim point nearest to the receiver, so that a rule meets no feature narrower than its
+/// piece; then adaptive.
 double integrate_rim(const RimIntegrand& rim, double from, double to, double finest, double tolerance) {
     std::vector<double> cuts = {from, to};
     const double near = rim.nearest_angle();
@@ -157,7 +145,7 @@ bool integrate_whole_rim(const RimIntegrand& rim, double tolerance, double& resu
     const std::array<glm::dvec2, rim_points>& table = rim_table();
     const auto sum_of = [&](std::size_t first, std::size_t step) {
         double sum = 0;
-        for (std::size_t i = first; i < rim_points; i += step) sum += rim.at(table[i].x, table[i].y);
+        for (std::size_t i = first; i < rim_points; i += step) sum += rim.at(table[i]);
         return sum;
     };
     double sum = sum_of(0, rim_points / 8);
@@ -189,83 +177,72 @@ double AreaEmitter::gain(double tan_angle) const {
     return spreads_ ? std::max(0.0, (tan_half_ - tan_angle) / spread_norm_) : 1.0;
 }
 
+double AreaEmitter::aside(const glm::dvec3& point) const {
+    return std::hypot(std::max(0.0, std::abs(point.x) - half_x_), std::max(0.0, std::abs(point.y) - half_y_));
+}
+
 double AreaEmitter::irradiance(const glm::dvec3& point, const glm::dvec3& normal, double tolerance) const {
     if (point.z <= 0.0) return 0.0;
-    if (spreads_) {
-        const double aside = std::hypot(std::max(0.0, std::abs(point.x) - half_x_),
-                                        std::max(0.0, std::abs(point.y) - half_y_));
-        if (aside >= tan_half_ * point.z) return 0.0;  // exactly, where the integral would leave its rounding
-    }
+    // Exactly, where the integral would leave its rounding.
+    if (spreads_ && aside(point) >= tan_half_ * point.z) return 0.0;
     if (is_thin()) return strip_irradiance(half_x_, half_y_, point, normal, tolerance);
     const double value = shape_ == AreaShape::rectangle ? rectangle_irradiance(point, normal, tolerance)
                                                         : ellipse_irradiance(point, normal, tolerance);
     return std::max(0.0, value);
 }
 
+double AreaEmitter::edge_irradiance(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec3& point,
+                                    const glm::dvec3& normal, double tolerance) const {
+    if (!spreads_) return lambert_edge(a, b, {point, normal});
+    const glm::dvec2 foot(point);
+    return SpreadIntegral(tan_half_).edge((a - foot) / point.z, (b - foot) / point.z, normal, tolerance);
+}
+
 double AreaEmitter::rectangle_irradiance(const glm::dvec3& point, const glm::dvec3& normal,
                                          double tolerance) const {
-    const Receiver receiver{point, normal};
-    const Polygon polygon = part_above_horizon(half_x_, half_y_, receiver);
+    const Polygon polygon = part_above_horizon(half_x_, half_y_, {point, normal});
     double sum = 0;
-    if (!spreads_) {
-        for (std::size_t i = 0; i < polygon.count; ++i) {
-            sum += lambert_edge(polygon.corner[i], polygon.corner[(i + 1) % polygon.count], receiver);
-        }
-        return sum;
-    }
-    const double distance = glm::length(point);
-    const double scale = std::min(pi, area() * axis_gain() / (distance * distance));
-    const SpreadIntegral spread(tan_half_);
-    const glm::dvec2 foot(point.x, point.y);
     for (std::size_t i = 0; i < polygon.count; ++i) {
-        sum += spread.edge((polygon.corner[i] - foot) / point.z,
-                           (polygon.corner[(i + 1) % polygon.count] - foot) / point.z, {normal.x, normal.y},
-                           normal.z, 0.1 * tolerance * scale * spread_norm_);
+        const glm::dvec2& next = polygon.corner[(i + 1) % polygon.count];
+        sum += edge_irradiance(polygon.corner[i], next, point, normal, 0.1 * tolerance * scale_at(point));
     }
     return sum / spread_norm_;
 }
 
+/// What tolerances are relative to, times spread_norm_.
+double AreaEmitter::scale_at(const glm::dvec3& point) const {
+    return std::min(pi, area() * axis_gain() / glm::dot(point, point)) * spread_norm_;
+}
+
 double AreaEmitter::ellipse_irradiance(const glm::dvec3& point, const glm::dvec3& normal,
                                        double tolerance) const {
-    const Receiver receiver{point, normal};
-    const double extent_x = normal.x * half_x_;
-    const double extent_y = normal.y * half_y_;
-    const double extent = std::hypot(extent_x, extent_y);
+    const glm::dvec2 extents(normal.x * half_x_, normal.y * half_y_);
+    const double extent = std::hypot(extents.x, extents.y);
     const double center_height = -glm::dot(normal, point);
     if (center_height <= -extent) return 0.0;
-    const double distance = glm::length(point);
-    const double scale = std::min(pi, area() * axis_gain() / (distance * distance));
-    const double absolute = 0.3 * tolerance * scale * spread_norm_;
+    const double absolute = 0.3 * tolerance * scale_at(point);
     const SpreadIntegral spread(tan_half_);
-    const RimIntegrand rim(half_x_, half_y_, receiver, spreads_ ? &spread : nullptr);
+    const RimIntegrand rim{{half_x_, half_y_}, {point, normal}, spreads_ ? &spread : nullptr};
     const double widest = std::max(half_x_, half_y_);
     const bool whole = center_height >= extent;
     double sum = 0;
     // Two coarse rules may agree by missing a feature together: only where there is none. The distance to the box
     // around the ellipse is a lower bound of that to its rim.
-    const double outside =
-        std::hypot(std::max(0.0, std::abs(point.x) - half_x_), std::max(0.0, std::abs(point.y) - half_y_));
     const double beam = spreads_ ? tan_half_ * point.z : widest;
-    if (whole && std::min(std::hypot(outside, point.z), beam) > 0.5 * widest &&
+    if (whole && std::min(std::hypot(aside(point), point.z), beam) > 0.5 * widest &&
         integrate_whole_rim(rim, absolute, sum)) {
         return sum / spread_norm_;
     }
-    const double feature = std::min(rim.distance_to(rim.nearest_angle()), beam);
+    const glm::dvec3 nearest(rim.point(rim.nearest_angle()), 0.0);
+    const double feature = std::min(glm::distance(point, nearest), beam);
     const double finest = 0.25 * feature / widest;
     if (whole) return integrate_rim(rim, -pi, pi, finest, absolute) / spread_norm_;
-    const double center_angle = std::atan2(extent_y, extent_x);
+    const double center_angle = std::atan2(extents.y, extents.x);
     const double half_arc = std::acos(std::clamp(-center_height / extent, -1.0, 1.0));
     sum = integrate_rim(rim, center_angle - half_arc, center_angle + half_arc, finest, absolute);
     // The straight cut along the horizon closes the rim.
-    const auto rim_point = [&](double angle) {
-        return glm::dvec2(half_x_ * std::cos(angle), half_y_ * std::sin(angle));
-    };
-    const glm::dvec2 end = rim_point(center_angle + half_arc);
-    const glm::dvec2 begin = rim_point(center_angle - half_arc);
-    const glm::dvec2 foot(point.x, point.y);
-    sum += spreads_ ? spread.edge((end - foot) / point.z, (begin - foot) / point.z, {normal.x, normal.y},
-                                  normal.z, absolute)
-                    : lambert_edge(end, begin, receiver);
+    sum += edge_irradiance(rim.point(center_angle + half_arc), rim.point(center_angle - half_arc), point,
+                           normal, absolute);
     return sum / spread_norm_;
 }
 

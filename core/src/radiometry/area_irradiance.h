@@ -2,6 +2,7 @@
 
 #include <skinglow/light.h>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "numerics/detail.h"
@@ -13,13 +14,16 @@ namespace skinglow::detail {
 /// = pi, a Lambert emitter; Blender's area lights, measured on 3.4 to 5.2).
 class AreaEmitter {
   public:
-    /// @param half_x, half_y  half widths, above 0; @param spread  full angle, radians, above 0, at most pi
+    /// @param half_x  half width, above 0
+    /// @param half_y  half width, above 0
+    /// @param spread  full angle, radians, above 0, at most pi
     AreaEmitter(AreaShape shape, double half_x, double half_y, double spread);
 
     /// Irradiance at a point, divided by L; 0 behind the light. The part of the light below the receiver's
     /// horizon is cut. Rectangles without a spread are in closed form (J. H. Lambert's polygon formula,
     /// Photometria, 1760); the others are one integral along the rim, to a relative tolerance.
-    /// @param point   in the light's frame; @param normal  the receiver's, in the same frame, unit
+    /// @param point      in the light's frame
+    /// @param normal     the receiver's, in the same frame, unit
     /// @param tolerance  of the integral, relative to area * cos / distance^2, above 0
     double irradiance(const glm::dvec3& point, const glm::dvec3& normal, double tolerance) const;
 
@@ -40,7 +44,12 @@ class AreaEmitter {
   private:
     double rectangle_irradiance(const glm::dvec3& point, const glm::dvec3& normal, double tolerance) const;
     double ellipse_irradiance(const glm::dvec3& point, const glm::dvec3& normal, double tolerance) const;
-
+    double edge_irradiance(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec3& point,
+                           const glm::dvec3& normal, double tolerance) const;
+    /// Distance of a point's foot to the box around the light; a lower bound of that to the light.
+    double aside(const glm::dvec3& point) const;
+    /// What absolute tolerances are a fraction of.
+    double scale_at(const glm::dvec3& point) const;
     double strip_irradiance(double half_x, double half_y, const glm::dvec3& point, const glm::dvec3& normal,
                             double tolerance) const;
 

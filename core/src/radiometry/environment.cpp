@@ -26,7 +26,7 @@ Environment::Environment(const glm::dvec3& radiance) {
 
 Environment::Environment(const std::array<glm::dvec3, 9>& coefficients) : coefficients_(coefficients) {
     for (std::size_t i = 0; i < coefficients.size(); ++i) {
-        require_finite("coefficients[" + std::to_string(i) + "]", coefficients[i]);
+        require_finite(entry_name("coefficients", i), coefficients[i]);
     }
 }
 
@@ -84,12 +84,8 @@ std::array<glm::dvec3, 9> Environment::irradiance_polynomial(const AngularWeight
 }
 
 glm::dvec3 Environment::irradiance(const glm::dvec3& normal, const AngularWeight* angular_weight) const {
-    const std::array<glm::dvec3, 9> polynomial = irradiance_polynomial(angular_weight);
-    const std::array<double, 9> at = harmonic_monomials(normal);
-    glm::dvec3 sum = polynomial[0];
-    for (std::size_t i = 1; i < 9; ++i) sum += polynomial[i] * at[i];
-    // Nine coefficients of a small bright sun swing below 0 on the side away from it.
-    return {std::max(sum.r, 0.0), std::max(sum.g, 0.0), std::max(sum.b, 0.0)};
+    // Nine coefficients of a small bright sun go below 0 on the side opposite to it.
+    return glm::max(polynomial_at(irradiance_polynomial(angular_weight), normal), 0.0);
 }
 
 glm::dvec3 Environment::mean_irradiance_error() const {
@@ -102,8 +98,7 @@ glm::dvec3 Environment::mean_irradiance_error() const {
 }
 
 glm::dvec3 Environment::mean_irradiance() const {
-    const glm::dvec3 mean = coefficients_[0] * (pi * 0.5 * std::sqrt(1 / pi));
-    return {std::max(mean.r, 0.0), std::max(mean.g, 0.0), std::max(mean.b, 0.0)};
+    return glm::max(coefficients_[0] * (pi * harmonic_scales[0]), 0.0);
 }
 
 }  // namespace skinglow

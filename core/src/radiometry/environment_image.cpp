@@ -33,12 +33,7 @@ struct RowIntegrals {
     }
 };
 
-/// Sums along one row against the parts of the harmonics that depend on the azimuth.
-struct RowSums {
-    glm::dvec3 one{0.0}, cosine{0.0}, sine{0.0}, cosine2{0.0}, sine2{0.0};
-};
-
-/// The same integrals for each column: of 1, cos, sin, cos 2, sin 2 of the azimuth.
+/// The same for each column: of 1, cos, sin, cos 2, sin 2 of the azimuth.
 std::vector<std::array<double, 5>> column_integrals(std::size_t width) {
     std::vector<std::array<double, 5>> columns(width);
     for (std::size_t c = 0; c < width; ++c) {
@@ -77,34 +72,25 @@ Environment integrate_equirectangular(std::size_t width, std::size_t height, con
     const std::vector<std::array<double, 5>> columns = column_integrals(width);
     Coefficients sum{};
     for (std::size_t row = 0; row < height; ++row) {
-        RowSums along;
+        std::array<glm::dvec3, 5> along{};
         for (std::size_t c = 0; c < width; ++c) {
             const glm::dvec3 radiance = pixel(row, c);
-            along.one += radiance * columns[c][0];
-            along.cosine += radiance * columns[c][1];
-            along.sine += radiance * columns[c][2];
-            along.cosine2 += radiance * columns[c][3];
-            along.sine2 += radiance * columns[c][4];
+            for (std::size_t k = 0; k < along.size(); ++k) along[k] += radiance * columns[c][k];
         }
+        const auto& [one, cosine, sine, cosine2, sine2] = along;
         const RowIntegrals theta(pi * static_cast<double>(row) / static_cast<double>(height),
                                  pi * static_cast<double>(row + 1) / static_cast<double>(height));
-        sum[0] += along.one * theta.one;
-        sum[1] += along.sine * theta.s;
-        sum[2] += along.one * theta.z;
-        sum[3] += along.cosine * theta.s;
-        sum[4] += along.sine2 * (0.5 * theta.ss);
-        sum[5] += along.sine * theta.sz;
-        sum[6] += along.one * (3 * theta.zz - theta.one);
-        sum[7] += along.cosine * theta.sz;
-        sum[8] += along.cosine2 * theta.ss;
+        sum[0] += one * theta.one;
+        sum[1] += sine * theta.s;
+        sum[2] += one * theta.z;
+        sum[3] += cosine * theta.s;
+        sum[4] += sine2 * (0.5 * theta.ss);
+        sum[5] += sine * theta.sz;
+        sum[6] += one * (3 * theta.zz - theta.one);
+        sum[7] += cosine * theta.sz;
+        sum[8] += cosine2 * theta.ss;
     }
-    // The constants of the harmonics, whose directional parts the sums are.
-    const std::array<double, 9> at_x = spherical_harmonics({1, 0, 0});
-    const double band2 = 2 * at_x[8];
-    const double band2_zonal = -at_x[6];
-    const std::array<double, 9> constant = {at_x[0], at_x[3],     at_x[3], at_x[3],    band2,
-                                            band2,   band2_zonal, band2,   0.5 * band2};
-    for (std::size_t i = 0; i < 9; ++i) sum[i] *= constant[i];
+    for (std::size_t i = 0; i < 9; ++i) sum[i] *= harmonic_scales[i];
     return finite_environment(sum);
 }
 

@@ -33,14 +33,14 @@ HWY_INLINE Irradiance ball(const KernelLight& light, const Receivers& r, bool is
     const V radius_sq = set(light.radius_sq);
     const V distance_sq = dot(to_light, to_light);
     const V softened_sq = distance_sq + set(light.softening_sq);
-    const V towards = dot(to_light, r.normal);
+    const V height = dot(to_light, r.normal);
     const V inverse = set(1.0) / (hn::Sqrt(distance_sq) * softened_sq);  // one division for all
     const V inverse_distance = inverse * softened_sq;
-    const V value = positive(towards) * set(0.25 / pi) * inverse;
-    const V cosine = towards * inverse_distance;
+    const V value = positive(height) * set(0.25 / pi) * inverse;
+    const V cosine = height * inverse_distance;
     const bool has_size = light.radius_sq > 0.0;
     M special = distance_sq < set(light.min_distance_sq);
-    if (has_size) special = hn::Or(special, towards * towards * softened_sq < radius_sq * distance_sq);
+    if (has_size) special = hn::Or(special, height * height * softened_sq < radius_sq * distance_sq);
     if (!is_spot) return {value, cosine, special};
 
     const V cos_axis = dot(to_light, set(light.reverse_axis)) * inverse_distance;
@@ -67,7 +67,7 @@ HWY_INLINE Irradiance spot(const KernelLight& light, const Receivers& r) {
     return ball(light, r, true);
 }
 HWY_INLINE Irradiance none(const KernelLight& /*light*/, const Receivers& /*r*/) {
-    return {zero(), zero(), hn::Not(nowhere())};
+    return {zero(), zero(), hn::Not(none_of())};
 }
 
 /// Lights of one kernel, so that the choice is made once for all of them.

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "geometry/vector.h"
+#include "numerics/argument_check.h"
 
 namespace skinglow::detail {
 namespace {
@@ -16,35 +17,8 @@ using Kernel = KernelLight::Kernel;
 /// Beyond this, squares of squares overflow: such lights are asked one by one.
 constexpr double max_vectorized = 1e70;
 
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-void set_ball(KernelLight& k, const PreparedLight& light) {
-    constexpr double min_sq = min_light_distance * min_light_distance;
-    k.radius_sq = light.radius() * light.radius();
-    k.softening_sq = light.soft_falloff() ? k.radius_sq : 0.0;
-    k.min_distance_sq = light.soft_falloff() ? min_sq : std::max(k.radius_sq, min_sq);
-    k.half_pi_radius = 0.5 * std::numbers::pi * light.radius();
-    if (!light.spot()) return;
-    const SpotProfile& spot = *light.spot();
-    const double fade = spot.cos_fade_start() - spot.cos_edge();
-    k.cos_edge = spot.cos_edge();
-    k.fade_scale = fade > 0.0 ? 1.0 / fade : 1e300;
-    k.cos_uneven = spot.with_cosine() ? 2.0 : spot.cos_fade_start();
-    k.cosine_falloff = spot.with_cosine() ? 1.0 : 0.0;
-}
-
-void set_rectangle(KernelLight& k, const PreparedLight& light) {
-    k.x_axis = light.frame()[0];
-    k.y_axis = light.frame()[1];
-    k.half_x = light.area()->half_x() * light.area_scale();
-    k.half_y = light.area()->half_y() * light.area_scale();
-}
-
 Kernel kernel_of(const PreparedLight& light) {
-    if (!(std::max({max_abs(light.position()), light.radius(), light.area_scale()}) < max_vectorized))
-        return Kernel::none;
+    if (!(std::max(max_abs(light.position()), light.radius()) < max_vectorized)) return Kernel::none;
     if (light.kind() == LightKind::sun) return Kernel::sun;
     if (light.kind() == LightKind::point) return Kernel::point;
     if (light.kind() == LightKind::spot) return Kernel::spot;
@@ -53,23 +27,43 @@ Kernel kernel_of(const PreparedLight& light) {
     return has_kernel ? Kernel::rectangle : Kernel::none;
 }
 
+KernelLight kernel_light(const RigLight& one) {
+    constexpr double min_sq = min_light_distance * min_light_distance;
+    const PreparedLight& light = one.light;
+    KernelLight k{.kernel = kernel_of(light),
+                  .light = &light,
+                  .strength = one.strength(),
+                  .position = light.position(),
+                  .reverse_axis = -light.direction(),
+                  .sin_sun_radius = light.sin_sun_radius(),
+                  .radius_sq = light.radius() * light.radius(),
+                  .half_pi_radius = 0.5 * std::numbers::pi * light.radius(),
+                  .x_axis = light.frame()[0],
+                  .y_axis = light.frame()[1]};
+    k.softening_sq = light.soft_falloff() ? k.radius_sq : 0.0;
+    k.min_distance_sq = light.soft_falloff() ? min_sq : std::max(k.radius_sq, min_sq);
+    if (light.spot()) {
+        const SpotProfile& spot = *light.spot();
+        const double fade = spot.cos_fade_start() - spot.cos_edge();
+        k.cos_edge = spot.cos_edge();
+        k.fade_scale = fade > 0.0 ? 1.0 / fade : 1e300;
+        k.cos_uneven = spot.with_cosine() ? 2.0 : spot.cos_fade_start();
+        k.cosine_falloff = spot.with_cosine() ? 1.0 : 0.0;
+    }
+    if (light.area()) {
+        k.half_x = light.area()->half_x() * light.area_scale();
+        k.half_y = light.area()->half_y() * light.area_scale();
+    }
+    return k;
+}
+
 }  // namespace
 
-IrradianceSum::IrradianceSum(std::span<const WeightedLight> lights, const AngularWeight* angular_weight,
+IrradianceSum::IrradianceSum(std::span<const RigLight> lights, const AngularWeight* angular_weight,
                              double tolerance)
     : angular_weight_(angular_weight), tolerance_(tolerance) {
-    for (const auto& [light, strength] : lights) {
-        if (light->dark()) continue;
-        KernelLight k;
-        k.kernel = kernel_of(*light);
-        k.light = light;
-        k.strength = strength;
-        k.position = light->position();
-        k.reverse_axis = -light->direction();
-        k.sin_sun_radius = light->sin_sun_radius();
-        if (k.kernel == Kernel::point || k.kernel == Kernel::spot) set_ball(k, *light);
-        if (k.kernel == Kernel::rectangle) set_rectangle(k, *light);
-        lights_.push_back(k);
+    for (const RigLight& one : lights) {
+        if (one.shines) lights_.push_back(kernel_light(one));
     }
     std::ranges::stable_sort(lights_, {}, &KernelLight::kernel);
     if (angular_weight == nullptr) return;

@@ -13,19 +13,13 @@
 
 namespace skinglow::detail {
 
-/// A light and what its irradiance per unit of power is multiplied by: power * color.
-struct WeightedLight {
-    const PreparedLight* light;
-    glm::dvec3 strength;
-};
-
 /// What the vector kernels read of a light; which fields depends on the kernel.
 struct KernelLight {
     enum class Kernel { sun, point, spot, rectangle, none };  // none: asked point by point
 
     Kernel kernel = Kernel::none;
     const PreparedLight* light = nullptr;
-    glm::dvec3 strength{0.0};
+    glm::dvec3 strength{0.0};  ///< power * color
     glm::dvec3 position{0.0};
     glm::dvec3 reverse_axis{0.0};  ///< unit, against the direction of a sun, spot or rectangle
     double sin_sun_radius = 0.0;   ///< sun
@@ -48,11 +42,10 @@ struct KernelLight {
 /// soft cone's rim, a point within the light), are asked of PreparedLight one by one.
 class IrradianceSum {
   public:
-    /// @param lights          what they point to has to outlive this
+    /// @param lights          have to outlive this; those that do not shine are left out
     /// @param angular_weight  none: every angle counts alike; has to outlive this
     /// @param tolerance       relative, of the integrals for ellipses and spreads
-    IrradianceSum(std::span<const WeightedLight> lights, const AngularWeight* angular_weight,
-                  double tolerance);
+    IrradianceSum(std::span<const RigLight> lights, const AngularWeight* angular_weight, double tolerance);
 
     /// Adds the irradiance of all lights at each point to its sum, W/m^2.
     /// @param normals  as many, of any length; 0 receives nothing

@@ -27,7 +27,7 @@ HWY_INLINE V set(double value) {
 HWY_INLINE V zero() {
     return hn::Zero(d);
 }
-HWY_INLINE M nowhere() {
+HWY_INLINE M none_of() {
     return hn::Not(hn::Eq(zero(), zero()));
 }
 HWY_INLINE V positive(V v) {

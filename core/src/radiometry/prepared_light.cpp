@@ -15,7 +15,7 @@ constexpr double pi = std::numbers::pi;
 
 /// A thinner light is as good as one this thin, in units of its width: a line.
 constexpr double thinnest = 1e-8;
-/// A light this small against its distance is a point with a cosine: the error is of the order of the square.
+/// A light this small against its distance is a point with a cosine: the error is of second order.
 constexpr double point_like = 1e-4;
 /// A patch of this angular radius sees one value of a spot's profile.
 constexpr double sharp = 1e-6;
@@ -52,6 +52,11 @@ PreparedLight::PreparedLight(const Light& light) : kind_(light.kind()), position
     area_.emplace(area->area_shape, std::max(0.5 * area->size_x / area_scale_, thinnest),
                   std::max(0.5 * area->size_y / area_scale_, thinnest),
                   std::max(area->spread, narrowest_spread));
+    radius_ = area_scale_ * std::hypot(area_->half_x(), area_->half_y());
+}
+
+glm::dvec3 PreparedLight::point_on_area(double x, double y) const {
+    return position_ + area_scale_ * (x * area_->half_x() * frame_[0] + y * area_->half_y() * frame_[1]);
 }
 
 glm::dvec3 PreparedLight::to_light(const glm::dvec3& point) const {
@@ -63,15 +68,14 @@ glm::dvec3 PreparedLight::to_light(const glm::dvec3& point) const {
 }
 
 double PreparedLight::distance(const glm::dvec3& point) const {
-    if (kind_ == LightKind::sun) return 0.0;
-    const glm::dvec3 offset = position_ - point;
-    return std::hypot(offset.x, offset.y, offset.z);
+    return kind_ == LightKind::sun ? 0.0 : length(position_ - point);
 }
 
 PreparedLight::BallTerm PreparedLight::ball_term(double distance) const {
-    const double reach = soft_falloff_ ? std::hypot(distance, radius_) : std::max(distance, radius_);
-    const double held = std::max(reach, min_light_distance);
-    return {0.25 / pi / held / held, radius_ > 0.0 ? radius_ / reach : 0.0,
+    const double effective_distance =
+        soft_falloff_ ? std::hypot(distance, radius_) : std::max(distance, radius_);
+    const double clamped = std::max(effective_distance, min_light_distance);
+    return {0.25 / pi / clamped / clamped, radius_ > 0.0 ? radius_ / effective_distance : 0.0,
             !soft_falloff_ && distance < radius_};
 }
 
@@ -92,17 +96,17 @@ double PreparedLight::through_spot(const BallTerm& ball, const glm::dvec3& norma
 double PreparedLight::ball_irradiance(const glm::dvec3& point, const glm::dvec3& normal) const {
     const double distance = this->distance(point);
     const BallTerm ball = ball_term(distance);
-    const glm::dvec3 towards = to_light(point);
-    const glm::dvec3& facing = distance == 0.0 ? towards : normal;
-    if (kind_ == LightKind::spot) return ball.facing * through_spot(ball, facing, towards);
+    const glm::dvec3 to_center = to_light(point);
+    const glm::dvec3& facing = distance == 0.0 ? to_center : normal;
+    if (kind_ == LightKind::spot) return ball.facing * through_spot(ball, facing, to_center);
     return ball.facing *
-           (ball.inside ? 1.0 : cap_irradiance(glm::dot(facing, towards), std::min(1.0, ball.sin_radius)));
+           (ball.inside ? 1.0 : cap_irradiance(glm::dot(facing, to_center), std::min(1.0, ball.sin_radius)));
 }
 
 double PreparedLight::area_irradiance(const glm::dvec3& point, const glm::dvec3& normal,
                                       double tolerance) const {
     const glm::dvec3 offset = point - position_;
-    const double distance = std::max(std::hypot(offset.x, offset.y, offset.z), min_light_distance);
+    const double distance = std::max(length(offset), min_light_distance);
     const double height = glm::dot(offset, direction());
     if (!(height >= 0.0) || !std::isfinite(distance)) return 0.0;
     const double widest = 2.0 * area_scale_;

@@ -2,6 +2,7 @@
 
 #include <skinglow/light.h>
 
+#include <cstddef>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -39,6 +40,7 @@ class PreparedLight {
     LightKind kind() const { return kind_; }
     const glm::dvec3& position() const { return position_; }
     const glm::dvec3& direction() const { return frame_[2]; }
+    /// Of the ball that holds all that glows; 0 for a sun.
     double radius() const { return radius_; }
     bool soft_falloff() const { return soft_falloff_; }
     double sin_sun_radius() const { return sin_sun_radius_; }
@@ -46,6 +48,8 @@ class PreparedLight {
     /// The area light in units of `area_scale`.
     const std::optional<AreaEmitter>& area() const { return area_; }
     double area_scale() const { return area_scale_; }
+    /// World point of an area light: x and y from -1 to 1 along its half axes.
+    glm::dvec3 point_on_area(double x, double y) const;
     bool dark() const { return dark_; }
     /// Columns: the light's x (along its tangent), y, and z (where it shines to), unit.
     const glm::dmat3& frame() const { return frame_; }
@@ -74,6 +78,20 @@ class PreparedLight {
     std::optional<AreaEmitter> area_;  ///< in units of area_scale_, so that no size over- or underflows
     double area_scale_ = 1;
     bool dark_ = false;  ///< a cone, spread or area of no width
+};
+
+/// A light of a rig, ready for every query.
+struct RigLight {
+    std::size_t index;  ///< in the list of lights
+    PreparedLight light;
+    glm::dvec3 color;
+    double power;
+    bool shines;  ///< on, and its cone, spread or area has a width
+
+    /// Irradiance from what a unit of power gives. One factor for all channels: a black channel stays
+    /// exactly black.
+    glm::dvec3 scaled(double per_power) const { return color * (power * per_power); }
+    glm::dvec3 strength() const { return color * power; }
 };
 
 }  // namespace skinglow::detail

@@ -129,7 +129,7 @@ HWY_INLINE Irradiance rectangle(const KernelLight& light, const Receivers& r) {
                           height,     {dot(r.normal, x_axis), dot(r.normal, y_axis), dot(r.normal, z_axis)}};
     const V center = v.above_horizon(x, y);
     const V extent = hn::MulAdd(hn::Abs(v.normal.x), half_x, hn::Abs(v.normal.y) * half_y);
-    // Rounding may not hide a cut: the heights of the corners are computed in another way.
+    // Rounding may not hide a cut: the heights of the corners are computed by another formula.
     const V margin = extent + set(1e-12) * (hn::Abs(x) + hn::Abs(y) + hn::Abs(height));
     const M lit = hn::And(height >= zero(), center >= hn::Neg(margin));
     if (hn::AllFalse(d, lit)) return {zero(), zero(), lit};

@@ -18,6 +18,14 @@ constexpr std::array<double, 9> harmonic_monomials(const glm::dvec3& d) {
     return {1.0, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3 * d.z * d.z - 1, d.x * d.z, d.x * d.x - d.y * d.y};
 }
 
+/// A polynomial of those at a unit direction.
+inline glm::dvec3 polynomial_at(const std::array<glm::dvec3, 9>& coefficients, const glm::dvec3& d) {
+    const std::array<double, 9> monomials = harmonic_monomials(d);
+    glm::dvec3 sum = coefficients[0];
+    for (std::size_t i = 1; i < 9; ++i) sum += coefficients[i] * monomials[i];
+    return sum;
+}
+
 /// The harmonics at a unit direction.
 constexpr std::array<double, 9> spherical_harmonics(const glm::dvec3& d) {
     std::array<double, 9> values = harmonic_monomials(d);

@@ -117,7 +117,7 @@ double cap_irradiance_through_spot(const SpotProfile& profile, const glm::dvec3&
         const double center = 0.5 * (cuts[i] + cuts[i + 1]);
         const double half = 0.5 * (cuts[i + 1] - cuts[i]);
         if (half <= 0.0) continue;
-        // Arcs open like a square root at the ends of a piece; the sine takes that away.
+        // Arcs open like a square root at the ends of a piece; the sine substitution removes that.
         sum += half * integrate<16>(
                           [&](double x) {
                               const double angle = center + half * std::sin(x);

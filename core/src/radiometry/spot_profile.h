@@ -11,7 +11,8 @@ namespace skinglow::detail {
 /// narrows.
 class SpotProfile {
   public:
-    /// @param angle  full angle of the cone, radians, 0 (no light) to pi; @param blend  0 (hard edge) to 1
+    /// @param angle        full angle of the cone, radians, 0 (no light) to pi
+    /// @param blend        0 (hard edge) to 1
     /// @param with_cosine  also times cos t (Blender 3.4)
     SpotProfile(double angle, double blend, bool with_cosine);
 

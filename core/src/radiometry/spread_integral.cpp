@@ -33,15 +33,18 @@ double tangent_minus_angle(double tangent) {
     return tangent - std::atan(tangent);
 }
 
-glm::dvec2 SpreadIntegral::coefficients(double x) const {
+double SpreadIntegral::along_ray(const glm::dvec2& point, const glm::dvec3& normal) const {
+    const double x = glm::length(point);
+    if (x == 0.0) return 0.0;
     const double end = std::min(x, tan_half_);
     const double first = 0.5 * end * end / (1 + end * end);
     const double second = second_moment(end);
-    return {tan_half_ * first - second, tan_half_ * second - third_moment(end)};
+    return -normal.z * (tan_half_ * first - second) +
+           glm::dot(glm::dvec2(normal), point) / x * (tan_half_ * second - third_moment(end));
 }
 
-double SpreadIntegral::edge(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& normal_xy,
-                            double normal_z, double tolerance) const {
+double SpreadIntegral::edge(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec3& normal,
+                            double tolerance) const {
     const double length = glm::distance(a, b);
     if (length == 0.0) return 0.0;
     const glm::dvec2 along = (b - a) / length;
@@ -57,10 +60,8 @@ double SpreadIntegral::edge(const glm::dvec2& a, const glm::dvec2& b, const glm:
         const glm::dvec2 on_edge = nearest + along * (scale * tangent);
         const double radius_sq = glm::dot(on_edge, on_edge);
         if (radius_sq == 0.0) return 0.0;
-        const double x = std::sqrt(radius_sq);
-        const glm::dvec2 c = coefficients(x);
         const double wedge = offset * scale * (1 + tangent * tangent) / radius_sq;  // d(phi) / d(angle)
-        return wedge * (-normal_z * c.x + glm::dot(normal_xy, on_edge) / x * c.y);
+        return wedge * along_ray(on_edge, normal);
     };
     // Where the edge enters and leaves the disk beyond which the light does not shine.
     const double radius_sq = tan_half_ * tan_half_ - offset * offset;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "numerics/detail.h"
 
@@ -10,22 +11,21 @@ namespace skinglow::detail {
 /// tangent is T. About the foot of the perpendicular from the receiver to the light's plane, with x = tan t
 /// the distance to the foot in units of the height, a wedge d(phi) out to x contributes
 ///   d(phi) * integral from 0 to min(x, T) of (T - x) (x n_phi - n_z) x / (1 + x^2)^2 dx,
-/// n the receiver's normal, n_phi its component along the wedge. Everything is in closed form but the way
-/// round the rim.
+/// n the receiver's normal, n_phi its component along the wedge. Everything is in closed form but the path
+/// around the rim.
 class SpreadIntegral {
   public:
     explicit SpreadIntegral(double tan_half) : tan_half_(tan_half) {}
 
-    double tan_half() const { return tan_half_; }
-
-    /// The two coefficients at x: of -n_z and of n_phi.
-    glm::dvec2 coefficients(double x) const;
+    /// The integral along a ray from the foot out to a point, which is in units of the height.
+    /// @param normal  receiver's normal n
+    double along_ray(const glm::dvec2& point, const glm::dvec3& normal) const;
 
     /// Integral over the triangle between the foot (origin) and the straight edge a to b, in units of the
-    /// height; signed, counter-clockwise positive. @param normal_xy, normal_z  receiver's normal. @param
-    /// tolerance  absolute.
-    double edge(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& normal_xy, double normal_z,
-                double tolerance) const;
+    /// height; signed, counter-clockwise positive.
+    /// @param normal     receiver's normal
+    /// @param tolerance  absolute
+    double edge(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec3& normal, double tolerance) const;
 
   private:
     double tan_half_;

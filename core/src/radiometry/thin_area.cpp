@@ -14,7 +14,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// Integral of f >= 0 between cuts that may stand outside [from, to]. About `peak` the variable is stretched by a
-/// hyperbolic sine, so that a peak of any width is smooth in it, and a sine takes away what rises like a square root at
+/// hyperbolic sine, so that a peak of any width is smooth in it, and a sine removes what rises like a square root at
 /// the ends of a piece. The tolerance is relative to the whole.
 template <std::size_t Count, typename Function>
 double integrate_peak(const Function& f, double from, double to, std::array<double, Count> cuts, double peak,

@@ -26,13 +26,10 @@ IrradianceRange irradiance_range(const PreparedLight& light, const Box& box);
 double min_angle(const glm::dvec3& axis, const glm::dvec3& center, double radius);
 /// The largest; pi where the ball holds the origin.
 double max_angle(const glm::dvec3& axis, const glm::dvec3& center, double radius);
-/// Half the angle under which a ball is seen; pi from within.
-double half_angle(double distance, double radius);
 
 double distance_between(const Box& a, const Box& b);
 
-/// Of an area light: half its bounding box, and the radius of its bounding sphere.
+/// Half the bounding box of an area light.
 glm::dvec3 half_extent(const PreparedLight& light);
-double half_diagonal(const PreparedLight& light);
 
 }  // namespace skinglow::detail

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "geometry/vector.h"
+#include "numerics/argument_check.h"
+#include "numerics/compensated_sum.h"
 #include "rig/light_bounds.h"
 
 namespace skinglow::detail {
@@ -30,6 +32,58 @@ glm::dvec3 position(const RigLight* leaf) {
     return leaf->light.position();
 }
 
+struct Candidate {
+    double key;  ///< largest channel of the bound
+    std::int64_t node;
+    glm::dvec3 bound;
+    bool operator<(const Candidate& other) const { return key < other.key; }
+};
+
+/// Nodes that are culled, the largest bound on top, and the sum of their bounds.
+class Culled {
+  public:
+    void add(std::int64_t node, const glm::dvec3& bound) {
+        candidates_.push_back({max_abs(bound), node, bound});
+        std::push_heap(candidates_.begin(), candidates_.end());
+        total_ += bound;
+        peak_ = std::max(peak_, max_abs(total_));
+    }
+
+    Candidate take_largest() {
+        std::pop_heap(candidates_.begin(), candidates_.end());
+        const Candidate top = candidates_.back();
+        candidates_.pop_back();
+        total_ -= top.bound;
+        return top;
+    }
+
+    /// Whether the sum is above the tolerance and something can be taken back. Nodes with lights inside the
+    /// box have bounds many decades above what remains when they are gone, and rounding of that size: then
+    /// the sum is made anew.
+    bool exceeds(double tolerance) {
+        if (candidates_.empty() || candidates_.front().key == 0.0) {
+            total_ = glm::dvec3(0.0);
+            return false;
+        }
+        const double total = max_abs(total_);
+        if (!(total > 1e-6 * peak_) || total <= tolerance) {
+            CompensatedSumRgb sum;
+            for (const Candidate& candidate : candidates_) sum.add(candidate.bound);
+            total_ = sum.total();
+            peak_ = max_abs(total_);
+        }
+        return !(max_abs(total_) <= tolerance);
+    }
+
+    const std::vector<Candidate>& candidates() const { return candidates_; }
+    const glm::dvec3& total() const { return total_; }
+
+  private:
+    std::vector<Candidate> candidates_;
+    glm::dvec3 total_{0.0};
+    double peak_ = 0;
+};
+
 }  // namespace
 
 LightTree::LightTree(std::span<const RigLight> lights) {
@@ -52,22 +106,21 @@ LightTree::LightTree(std::span<const RigLight> lights) {
 
 LightTree::Node LightTree::node_of_leaf(std::size_t leaf) const {
     const PreparedLight& light = leaves_[leaf]->light;
-    Node node{.begin = leaf, .end = leaf + 1, .extent = {}};
+    Node node{.begin = leaf, .end = leaf + 1, .extent = {}, .cone = {}};
     glm::dvec3 extent(light.radius());
     double at_distance = 0.25 / pi;
     double anywhere = 0.25 / pi / std::pow(std::max(light.radius(), min_light_distance), 2);
-    node.half_angle = pi;
-    if (light.kind() == LightKind::spot) node.half_angle = light.spot()->edge() + 1e-9;
+    node.cone = {light.direction(), pi};
+    if (light.kind() == LightKind::spot) node.cone.half_angle = light.spot()->edge() + 1e-9;
     if (light.kind() == LightKind::area) {
         const AreaEmitter& area = *light.area();
         const double scale = light.area_scale();
-        // Heights over the light are held above a minimum: as if it stood that much nearer.
+        // Heights over the light are clamped to a minimum: as if it stood that much nearer.
         extent = half_extent(light) + glm::dvec3(min_light_distance + 2e-9 * scale);
         at_distance = area.axis_gain() / pi;
         anywhere = area.axis_gain() / area.area() / scale / scale;
-        node.half_angle = std::min(pi, area.half_spread() + 1e-9);
+        node.cone.half_angle = std::min(pi, area.half_spread() + 1e-9);
     }
-    node.axis = light.direction();
     node.extent = {light.position() - extent, light.position() + extent};
     node.at_distance = glm::abs(leaves_[leaf]->scaled(at_distance));
     node.anywhere = glm::abs(leaves_[leaf]->scaled(anywhere));
@@ -85,16 +138,15 @@ std::int64_t LightTree::build(std::size_t begin, std::size_t end) {
     }
     const glm::dvec3 size = box.half_extent();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const std::size_t middle = begin + (end - begin) / 2;
+    const std::size_t median = begin + (end - begin) / 2;
     const auto at = [&](std::size_t i) { return leaves_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end), [axis](const RigLight* a, const RigLight* b) {
+    std::nth_element(at(begin), at(median), at(end), [axis](const RigLight* a, const RigLight* b) {
         return position(a)[axis] < position(b)[axis];
     });
-    const std::int64_t left = build(begin, middle);
-    const std::int64_t right = build(middle, end);
+    const std::int64_t left = build(begin, median);
+    const std::int64_t right = build(median, end);
     const Node& a = node(left);
     const Node& b = node(right);
-    const NormalCone cone = cone_around({a.axis, a.half_angle}, {b.axis, b.half_angle});
     nodes_.push_back({.begin = begin,
                       .end = end,
                       .left = left,
@@ -102,8 +154,7 @@ std::int64_t LightTree::build(std::size_t begin, std::size_t end) {
                       .extent = {glm::min(a.extent.min, b.extent.min), glm::max(a.extent.max, b.extent.max)},
                       .at_distance = a.at_distance + b.at_distance,
                       .anywhere = a.anywhere + b.anywhere,
-                      .axis = cone.axis,
-                      .half_angle = cone.half_angle});
+                      .cone = cone_around(a.cone, b.cone)});
     return static_cast<std::int64_t>(nodes_.size()) - 1;
 }
 
@@ -116,7 +167,7 @@ glm::dvec3 LightTree::bound(const Node& node, const Box& box) const {
     const glm::dvec3 anywhere = node.anywhere * (1 + 1e-6);
     if (gap == 0.0) return anywhere;
     const double radius = box.radius() + node.extent.radius();
-    if (min_angle(node.axis, box.center() - node.extent.center(), radius) > node.half_angle + 1e-9)
+    if (min_angle(node.cone.axis, box.center() - node.extent.center(), radius) > node.cone.half_angle + 1e-9)
         return glm::dvec3(0.0);
     return glm::min(node.at_distance * ((1 + 1e-6) / gap / gap), anywhere);
 }
@@ -126,6 +177,34 @@ std::vector<std::size_t> LightTree::lights_of(const Node& node) const {
     for (std::size_t i = node.begin; i < node.end; ++i) lights.push_back(leaves_[i]->index);
     std::sort(lights.begin(), lights.end());
     return lights;
+}
+
+CullingResult LightTree::cull(const Box& box, double tolerance) const {
+    validate(box);
+    require_not_negative("tolerance", tolerance);
+    Culled culled;
+    const auto add = [&](std::int64_t index) { culled.add(index, bound(node(index), box)); };
+    if (root_ >= 0) add(root_);
+    for (std::size_t i = first_sun_; i < nodes_.size(); ++i) add(static_cast<std::int64_t>(i));
+
+    CullingResult result;
+    while (culled.exceeds(tolerance * (1 - 1e-12))) {
+        const Node& largest = node(culled.take_largest().node);
+        if (largest.left < 0) {
+            result.kept.push_back(leaves_[largest.begin]->index);
+        } else {
+            add(largest.left);
+            add(largest.right);
+        }
+    }
+    std::sort(result.kept.begin(), result.kept.end());
+    result.bound = culled.total();
+    if (!off_.empty()) result.dropped.push_back({off_, DropReason::off, glm::dvec3(0.0)});
+    for (const Candidate& candidate : culled.candidates()) {
+        const DropReason reason = candidate.key > 0.0 ? DropReason::negligible : DropReason::unreachable;
+        result.dropped.push_back({lights_of(node(candidate.node)), reason, candidate.bound});
+    }
+    return result;
 }
 
 }  // namespace skinglow::detail

@@ -12,7 +12,7 @@
 namespace skinglow::detail {
 
 /// Lights in a binary tree over their positions, so that for each object only those are looked at that may
-/// matter. A node knows the box its lights stand in, the most they can give together, and a cone that holds
+/// matter. A node knows the box its lights stand in, a bound of what they give together, and a cone that holds
 /// all that they shine into (as in A. Conty Estevez and C. Kulla, "Importance Sampling of Many Lights with
 /// Adaptive Tree Splitting", HPG 2018, where such nodes serve sampling; here they bound what is left out).
 class LightTree {
@@ -30,10 +30,9 @@ class LightTree {
         std::int64_t left = -1;  ///< -1: one leaf
         std::int64_t right = -1;
         Box extent;                   ///< all that glows
-        glm::dvec3 at_distance{0.0};  ///< sum of what a light gives at most at a distance of 1
-        glm::dvec3 anywhere{0.0};     ///< sum of what a light gives at most at any distance
-        glm::dvec3 axis{0.0, 0.0, 1.0};
-        double half_angle = 0;  ///< of the cone they shine into; pi: everywhere
+        glm::dvec3 at_distance{0.0};  ///< sum of upper bounds at a distance of 1
+        glm::dvec3 anywhere{0.0};     ///< sum of upper bounds at any distance
+        NormalCone cone;              ///< that they shine into
     };
 
     std::int64_t build(std::size_t begin, std::size_t end);

@@ -9,7 +9,7 @@
 namespace skinglow {
 namespace {
 
-/// All that lights must share to shine alike but for their color and power.
+/// What is equal of lights that shine alike, but for their color and power.
 std::vector<double> geometry_of(const Light& light) {
     std::vector<double> key{static_cast<double>(light.kind())};
     const auto add = [&](const glm::dvec3& v) { key.insert(key.end(), {v.x, v.y, v.z}); };
@@ -48,7 +48,7 @@ std::vector<Light> merge_identical(std::span<const Light> lights) {
         (light.power() > 0 ? stack.positive : stack.negative).add(light.color() * light.power());
     }
     std::vector<Light> merged;
-    // A color is 0 or more in each channel: what takes light away stays a light of its own.
+    // A color is 0 or more in each channel: what subtracts light stays a light of its own.
     for (const Stack& stack : stacks) {
         for (const glm::dvec3& strength : {stack.positive.total(), stack.negative.total()}) {
             const double size = max_abs(strength);

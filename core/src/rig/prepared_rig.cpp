@@ -1,4 +1,4 @@
-#include <limits>
+#include <array>
 #include <string>
 #include <utility>
 
@@ -35,6 +35,11 @@ glm::dvec3 unit_normal(const glm::dvec3& normal) {
 
 }  // namespace detail
 
+std::string_view to_text(DropReason reason) {
+    constexpr std::array<std::string_view, 3> names = {"off", "unreachable", "negligible"};
+    return names.at(static_cast<std::size_t>(reason));
+}
+
 PreparedRig::PreparedRig(std::vector<Light> lights) : data_(std::make_shared<RigData>(std::move(lights))) {}
 
 const std::vector<Light>& PreparedRig::lights() const {
@@ -47,12 +52,10 @@ CullingResult PreparedRig::cull(const Box& box, double tolerance) const {
 
 namespace {
 
-/// What a light gives, finite or refused by its name, which is only put together where it is needed.
+/// What a light gives, finite or refused by its name.
 glm::dvec3 checked(const PreparedRig& rig, const RigLight& one, double per_power) {
-    const glm::dvec3 part = one.scaled(per_power);
-    if (!(max_abs(part) <= std::numeric_limits<double>::max()))
-        require_finite("irradiance of light \"" + rig.lights()[one.index].name() + "\"", part);
-    return part;
+    const auto name = [&] { return "irradiance of light \"" + rig.lights()[one.index].name() + "\""; };
+    return require_finite(name, one.scaled(per_power));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <skinglow/light.h>
 #include <skinglow/rig.h>
 
-#include <cstddef>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <mutex>
@@ -13,20 +12,6 @@
 #include "radiometry/prepared_light.h"
 
 namespace skinglow::detail {
-
-/// A light of a rig, ready for every query.
-struct RigLight {
-    std::size_t index;  ///< in the list of lights
-    PreparedLight light;
-    glm::dvec3 color;
-    double power;
-    bool shines;  ///< on, and its cone, spread or area has a width
-
-    /// Irradiance from what a unit of power gives. One factor for all channels: a black channel stays
-    /// exactly black.
-    glm::dvec3 scaled(double per_power) const { return color * (power * per_power); }
-    glm::dvec3 strength() const { return color * power; }
-};
 
 class LightTree;
 

@@ -17,13 +17,13 @@
 namespace skinglow {
 namespace {
 
-/// Without leaving early: so the loop is vectorized.
+/// No early exit, so that the loop is vectorized.
 bool all_finite(std::span<const glm::dvec3> values) {
-    constexpr double most = std::numeric_limits<double>::max();
+    constexpr double max = std::numeric_limits<double>::max();
     int bad = 0;
     for (const glm::dvec3& v : values) {
-        bad |= static_cast<int>(!(std::abs(v.x) <= most)) | static_cast<int>(!(std::abs(v.y) <= most)) |
-               static_cast<int>(!(std::abs(v.z) <= most));
+        bad |= static_cast<int>(!(std::abs(v.x) <= max)) | static_cast<int>(!(std::abs(v.y) <= max)) |
+               static_cast<int>(!(std::abs(v.z) <= max));
     }
     return bad == 0;
 }
@@ -48,12 +48,7 @@ void detail::require_surface(std::span<const glm::dvec3> points, std::span<const
     require_a_normal_each(points, normals);
     const auto validate_all = [](const char* name, std::span<const glm::dvec3> values) {
         if (all_finite(values)) return;
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            const glm::dvec3& v = values[i];
-            if (std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z)) continue;
-            refuse_argument(std::string(name) + "[" + std::to_string(i) + "]", to_text(v),
-                            "three finite numbers");
-        }
+        for (std::size_t i = 0; i < values.size(); ++i) require_finite(entry_name(name, i), values[i]);
     };
     validate_all("points", points);
     validate_all("normals", normals);
@@ -64,11 +59,7 @@ std::vector<glm::dvec3> surface_irradiance(const PreparedRig& rig, std::span<con
                                            const SurfaceOptions& options) {
     require_a_normal_each(points, normals);
     require_positive("area_tolerance", options.area_tolerance);
-    std::vector<WeightedLight> lights;
-    for (const RigLight& one : rig.data().prepared) {
-        if (one.shines) lights.push_back({&one.light, one.strength()});
-    }
-    const IrradianceSum lights_sum(lights, options.angular_weight, options.area_tolerance);
+    const IrradianceSum lights_sum(rig.data().prepared, options.angular_weight, options.area_tolerance);
     std::vector<glm::dvec3> sums(points.size());
     std::atomic<bool> is_finite = true;
     const auto work = [&](std::size_t begin, std::size_t end) {
@@ -82,14 +73,36 @@ std::vector<glm::dvec3> surface_irradiance(const PreparedRig& rig, std::span<con
         }
         if (!all_finite(block)) is_finite = false;
     };
-    for_each_block(points.size(), useful_threads(options.threads, points.size(), lights.size()), work, {},
-                   512);
+    for_each_block(points.size(), useful_threads(options.threads, points.size(), lights_sum.lights().size()),
+                   work, {}, 512);
     if (is_finite) return sums;
     require_surface(points, normals);
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-        require_finite("irradiance at points[" + std::to_string(i) + "]", sums[i]);
-    }
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        require_finite(entry_name("irradiance at points", i), sums[i]);
     return sums;
+}
+
+SurfacePoints far_side(std::span<const glm::dvec3> vertices, std::span<const glm::dvec3> normals,
+                       std::span<const double> depth) {
+    require_surface(vertices, normals);
+    if (depth.size() != vertices.size() && depth.size() != 1) {
+        refuse_argument("number of depths", std::to_string(depth.size()),
+                        "1 or as many as vertices (" + std::to_string(vertices.size()) + ")");
+    }
+    for (std::size_t i = 0; i < depth.size(); ++i) require_not_negative(entry_name("depth", i), depth[i]);
+    SurfacePoints far{std::vector<glm::dvec3>(vertices.size()), std::vector<glm::dvec3>(vertices.size())};
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (normals[i] != glm::dvec3(0.0)) far.normals[i] = -unit(normals[i]);
+        far.points[i] = vertices[i] + far.normals[i] * (depth.size() == 1 ? depth[0] : depth[i]);
+    }
+    return far;
+}
+
+std::vector<glm::dvec3> far_side_irradiance(const PreparedRig& rig, std::span<const glm::dvec3> vertices,
+                                            std::span<const glm::dvec3> normals,
+                                            std::span<const double> depth, const SurfaceOptions& options) {
+    const SurfacePoints far = far_side(vertices, normals, depth);
+    return surface_irradiance(rig, far.points, far.normals, options);
 }
 
 }  // namespace skinglow

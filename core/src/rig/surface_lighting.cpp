@@ -46,8 +46,8 @@ struct CutLight {
     const PreparedLight& light() const { return source->light; }
 };
 
-/// The lights that reach the box, the brightest first.
-std::vector<CutLight> lights_that_reach(const PreparedRig& rig, const Box& box) {
+/// The lights that give the box anything, the brightest first.
+std::vector<CutLight> lights_of_box(const PreparedRig& rig, const Box& box) {
     std::vector<CutLight> lights;
     for (const RigLight& one : rig.data().prepared) {
         if (!one.shines) continue;
@@ -59,8 +59,8 @@ std::vector<CutLight> lights_that_reach(const PreparedRig& rig, const Box& box) 
     return lights;
 }
 
-/// Scales a light's terms so that they are exact where the box's center faces it: that takes most of the error
-/// away.
+/// Scales a light's terms so that they are exact where the box's center faces it: that removes most of the
+/// error.
 void calibrate(CutLight& cut, const glm::dvec3& center) {
     const glm::dvec3 facing = cut.light().to_light(center);
     double sum = 0;
@@ -92,7 +92,7 @@ Angles angles_of(const AngularWeight* angular_weight, std::span<const CutLight> 
     std::vector<glm::dvec3> values;
     for (int i = 0; i <= steps; ++i) {
         mu.push_back(static_cast<double>(i) / steps);
-        values.push_back(glm::max(evaluate(angles.cubic, mu.back()), glm::dvec3(0.0)));
+        values.push_back(evaluate(angles.cubic, mu.back()));
     }
     angles.weight.emplace(mu, values);
     return angles;
@@ -168,7 +168,7 @@ SurfaceLighting::SurfaceLighting(const PreparedRig& rig, const Box& box,
                                  const SurfaceLightingOptions& options) {
     validate(box);
     require_positive("tolerance", options.tolerance);
-    std::vector<CutLight> lights = lights_that_reach(rig, box);
+    std::vector<CutLight> lights = lights_of_box(rig, box);
     const std::span<CutLight> near(lights.data(), std::min(lights.size(), options.max_terms));
     const Angles angles = angles_of(options.angular_weight, near);
     angular_ = angles.cubic;
@@ -202,9 +202,7 @@ SurfaceLighting::SurfaceLighting(const PreparedRig& rig, const Box& box,
 }
 
 glm::dvec3 SurfaceLighting::irradiance(const glm::dvec3& point, const glm::dvec3& normal) const {
-    const std::array<double, 9> at = harmonic_monomials(normal);
-    glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i < 9; ++i) sum += polynomial_[i] * at[i];
+    glm::dvec3 sum = polynomial_at(polynomial_, normal);
     for (const SurfaceTerm& term : terms_) sum += term.irradiance(point, normal, angular_);
     // The sum, not the polynomial: far lights of negative power take from the terms.
     return glm::max(sum, glm::dvec3(0.0));

@@ -14,7 +14,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 /// A spot without blend has a rim all the same, so narrow that single precision just resolves it.
 constexpr double narrowest_rim = 1e-6;
-/// Keeps 0 / 0 away where a light has no size.
+/// Avoids 0 / 0 for lights without a size.
 constexpr double tiny = 1e-300;
 
 /// The cosine to a light with an angular radius of that sine, of which the horizon hides a part: between
@@ -67,21 +67,27 @@ Tiles rectangle_tiles(int columns, int rows) {
     return tiles;
 }
 
-/// Centers of mass of equal pieces of a unit disk: the whole, halves, quarters, or an inner and an outer ring
-/// of quarters each. A sector of half angle a between radii p and r has its own at 2 sin(a) / (3 a) (r^3 -
-/// p^3) / (r^2 - p^2).
+/// Adds the centers of mass of equal sectors of a ring between radii p and r: of half angle a, at
+/// 2 sin(a) / (3 a) (r^3 - p^3) / (r^2 - p^2) from the center.
+void add_ring(Tiles& tiles, int sectors, double p, double r, double first_angle) {
+    const double a = pi / sectors;
+    const double radius = 2.0 * std::sin(a) / (3.0 * a) * (r * r * r - p * p * p) / (r * r - p * p);
+    for (int i = 0; i < sectors; ++i) {
+        const double angle = first_angle + 2.0 * a * i;
+        tiles.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    }
+}
+
+/// Equal pieces of a unit disk: the whole, halves, quarters, or an inner and an outer ring of quarters each.
 Tiles disk_tiles(int columns, int rows) {
-    const double half = 4.0 / (3.0 * pi);
-    if (columns * rows == 1) return {{0.0, 0.0}};
-    if (columns * rows == 2)
-        return columns == 2 ? Tiles{{-half, 0.0}, {half, 0.0}} : Tiles{{0.0, -half}, {0.0, half}};
-    if (columns * rows == 4) return {{-half, -half}, {-half, half}, {half, -half}, {half, half}};
-    const double inner_radius = std::sqrt(0.5);
-    const double inner = half * inner_radius;
+    const int count = columns * rows;
+    if (count == 1) return {{0.0, 0.0}};
+    Tiles tiles;
+    const double inner_radius = count == 8 ? std::sqrt(0.5) : 1.0;
+    add_ring(tiles, std::min(count, 4), 0.0, inner_radius, count > 2 ? pi / 4 : columns == 2 ? 0.0 : pi / 2);
     // The outer quarters stand between the inner ones, on the axes.
-    const double outer = half * std::sqrt(2.0) * 2.0 * (1.0 - inner_radius * inner_radius * inner_radius);
-    return {{-inner, -inner}, {-inner, inner}, {inner, -inner}, {inner, inner},
-            {-outer, 0.0},    {outer, 0.0},    {0.0, -outer},   {0.0, outer}};
+    if (count == 8) add_ring(tiles, 4, inner_radius, 1.0, 0.0);
+    return tiles;
 }
 
 std::vector<SurfaceTerm> area_terms(const PreparedLight& light, const glm::dvec3& strength, int columns,
@@ -103,8 +109,7 @@ std::vector<SurfaceTerm> area_terms(const PreparedLight& light, const glm::dvec3
     std::vector<SurfaceTerm> terms;
     terms.reserve(tiles.size());
     for (const glm::dvec2& tile : tiles) {
-        term.position = light.position() + scale * (tile.x * area.half_x() * light.frame()[0] +
-                                                    tile.y * area.half_y() * light.frame()[1]);
+        term.position = light.point_on_area(tile.x, tile.y);
         terms.push_back(term);
     }
     return terms;

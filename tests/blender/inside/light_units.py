@@ -150,6 +150,26 @@ def check_areas(work):
     )
 
 
+def check_areas_with_a_size_of_0(work):
+    """Neither Cycles nor the core gives any light; a size just above 0 is a line, and does."""
+    scene = stage(samples=512)
+    found = {}
+    for shape in ("RECTANGLE", "ELLIPSE"):
+        for size_x, size_y in ((0.0, 1.0), (1.0, 0.0), (0.0, 0.0), (1.0, 0.01)):
+            obj = add_light(kind="AREA", energy=100.0, location=(0.3, 0.0, 1.0))
+            obj.data.shape, obj.data.size, obj.data.size_y = shape, size_x, size_y
+            expected, seen = core_irradiance(obj), rendered_irradiance(work, scene)
+            found[f"{shape} {size_x} {size_y}"] = (seen[0], expected[0])
+            bpy.data.objects.remove(obj)
+    wrong = {
+        name: (seen, expected)
+        for name, (seen, expected) in found.items()
+        if not (abs(seen - expected) <= 0.05 * expected and (expected > 1.0) == name.endswith("0.01"))
+    }
+    assert not wrong, f"Cycles, core: {wrong}"
+    return found
+
+
 def check_nodes(work):
     def nodes(light):
         light.use_nodes = True

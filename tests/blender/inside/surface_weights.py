@@ -86,6 +86,39 @@ def check_each_kind_of_light(work):
     return found
 
 
+def check_weight_of_an_angle_is_never_negative(work):
+    """The cubic of a weight that rises steeply is negative at grazing angles: shown is 0 there, not less."""
+    from skinglow_blender import skin_tables
+
+    steep = sg.AngularWeight([0.0, 0.5, 0.55, 1.0], [0.0, 0.0, 1.0, 1.0])
+    before = sg.skin_angular_weight
+    skin_tables._angular_weight.cache_clear()
+    sg.skin_angular_weight = lambda _tissue: steep
+    try:
+        skin()
+        # The point grazes the rim; the sun, upright everywhere, shows what a negative weight would subtract.
+        add_light(energy=100.0, location=(0.0, 0.0, -0.25)).data.shadow_soft_size = 0.0
+        sun = add_light("Sun", kind="SUN", energy=50.0)
+        sun.rotation_euler, sun.data.angle = (np.pi, 0.0, 0.0), 0.0
+        shown = pixels(work)
+    finally:
+        sg.skin_angular_weight = before
+        skin_tables._angular_weight.cache_clear()
+    lighting = sg.SurfaceLighting(core_lights(), (-1.0, -1.0, -0.1), (1.0, 1.0, 0.0), angular_weight=steep)
+    centers = (np.arange(SIZE) + 0.5) / SIZE * 2.0 - 1.0
+    x, y = np.meshgrid(centers, centers)
+    points = np.stack([x.ravel(), y.ravel(), np.full(SIZE * SIZE, -THICKNESS_MM / UNIT_MM)], axis=1)
+    light = lighting.irradiance(points, np.tile((0.0, 0.0, -1.0), (SIZE * SIZE, 1)))
+    mu = 0.19 / np.hypot(0.19, np.hypot(x, y))
+    cubic = np.polynomial.polynomial.polyval(mu, np.asarray(lighting.angular)[:, 0])
+    assert (cubic < -0.05).sum() > 50, "the case shows nothing"
+    wanted = (light @ white_table().T / np.pi).reshape(SIZE, SIZE, 3)
+    np.testing.assert_allclose(shown, wanted, atol=2e-3 * wanted.max())
+    # Only the sun, the same for each of them.
+    grazed = shown[cubic < 0]
+    assert np.ptp(grazed, axis=0).max() < 1e-5 * wanted.max() and grazed[:, 0].min() > 0
+
+
 def check_eevee_shows_the_same(work):
     """EEVEE works the same formula out, with half the digits."""
     skin()

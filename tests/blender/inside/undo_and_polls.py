@@ -1,4 +1,4 @@
-"""Each operator undone and redone, why a button is gray, and measuring that is cancelled or overtaken."""
+"""Each operator undone and redone, why a button is gray, and measuring that is canceled or overtaken."""
 
 import time
 
@@ -217,7 +217,7 @@ def fine_ball():
     return obj
 
 
-def check_a_cancelled_measuring_stops_soon(_work):
+def check_a_canceled_measuring_stops_soon(_work):
     geometry = measured_geometry.read_geometry(fine_ball(), bpy.context.scene)
     measuring = Measuring({"Ball": geometry})
     end = time.monotonic() + 60.0
@@ -231,7 +231,7 @@ def check_a_cancelled_measuring_stops_soon(_work):
     except RuntimeError as error:
         assert "cancel" in str(error), str(error)
     else:
-        raise AssertionError("a cancelled measuring gave a result")
+        raise AssertionError("a canceled measuring gave a result")
     assert measuring_operators.measuring_now() is None
 
 

@@ -79,7 +79,7 @@ def steps():
         save_picture(picture.replace(".png", "_before.png"))
     yield from the_button_and_undo()
     yield from the_list()
-    yield from a_cancelled_measuring()
+    yield from a_canceled_measuring()
     yield from a_measuring_to_its_end()
     yield from a_moved_light()
     yield from every_part_of_the_panel()
@@ -120,7 +120,7 @@ def the_list():
     tell("redraws, computed, looks", [len(drawn), len(computed), live_update.STATE.updates - looks])
 
 
-def a_cancelled_measuring():
+def a_canceled_measuring():
     before = thickness()
     head().skinglow.rays = 4096
     with in_view():
@@ -135,11 +135,11 @@ def a_cancelled_measuring():
     yield from press_in_view("ESC")
     yield from wait_for(lambda: not measuring(), PATIENCE, "Esc")
     tell("seconds to cancel", time.monotonic() - asked)
-    tell("cancelling kept the thickness", bool(np.array_equal(thickness(), before)))
+    tell("canceling kept the thickness", bool(np.array_equal(thickness(), before)))
     yield from press_in_view("Z", ctrl=True)
     yield 1.0
-    # The step before is undone, and not one that cancelling left.
-    tell("rays after cancelling and undo", head().skinglow.rays)
+    # The step before is undone, and not one that canceling left.
+    tell("rays after canceling and undo", head().skinglow.rays)
 
 
 def a_measuring_to_its_end():

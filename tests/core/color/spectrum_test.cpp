@@ -92,7 +92,7 @@ TEST(Spectrum, ColorHasLuminanceOne) {
     }
 }
 
-TEST(Spectrum, LineKeepsItsPowerAndPlace) {
+TEST(Spectrum, LineKeepsItsPowerAndPosition) {
     for (const double fwhm : {0.01, 1.0, 20.0}) {
         const Spectrum line = line_spectrum(589.3, fwhm);
         double power = 0.0, moment = 0.0;
@@ -106,7 +106,7 @@ TEST(Spectrum, LineKeepsItsPowerAndPlace) {
     }
 }
 
-TEST(Spectrum, TabulatedLampIsIntegratedAgainstStraightPiecesExactly) {
+TEST(Spectrum, TabulatedLightIsIntegratedAgainstStraightPiecesExactly) {
     // Uneven wavelengths, against the ramp nm - 380: both integrals by hand.
     const std::vector<double> nm{300.0, 401.0, 402.5, 437.0, 900.0}, power{2.0, 2.0, 5.0, 0.0, 0.0};
     const Spectrum light = tabulated_spectrum(nm, power);

@@ -1,10 +1,17 @@
 // Built by the test `installed_package` against the installed libraries and headers alone. A little of each part.
+#include <skinglow/angular_weight.h>
+#include <skinglow/box.h>
+#include <skinglow/environment.h>
+#include <skinglow/light.h>
 #include <skinglow/light_weights.h>
 #include <skinglow/lut.h>
+#include <skinglow/mesh.h>
 #include <skinglow/occlusion.h>
 #include <skinglow/povray.h>
 #include <skinglow/rig.h>
 #include <skinglow/slab.h>
+#include <skinglow/spectrum.h>
+#include <skinglow/surface_lighting.h>
 #include <skinglow/thickness.h>
 #include <skinglow/tissue.h>
 

@@ -81,7 +81,7 @@ TEST(LightWeights, MeasureFromThePoint) {
     expect_near_relative(light_weight(made(lights), away), table1::total, 1e-13);
 }
 
-TEST(LightWeights, LeaveOutLampsThatAreOff) {
+TEST(LightWeights, LeaveOutLightsThatAreOff) {
     auto lights = table1::flat_lights();
     lights[0].visible = false;
     lights[1].power = 0.0;
@@ -115,7 +115,7 @@ TEST(LightWeights, HoldAtExtremes) {
     EXPECT_EQ(light_weight({}, glm::dvec3(0.0)), glm::dvec3(0.0)) << "no lights: L = 0";
     FlatLight light;
     light.color = {0.0, 1e6, 1.0};
-    EXPECT_EQ(light_weight(made({light}), glm::dvec3(0.0)), light.color) << "a lamp at the point itself";
+    EXPECT_EQ(light_weight(made({light}), glm::dvec3(0.0)), light.color) << "a light at the point itself";
     light.position = {1e-30, 0.0, 0.0};
     EXPECT_EQ(light_weight(made({light}), glm::dvec3(0.0)), light.color);
     light.position = {0.0, 1e30, 0.0};
@@ -144,7 +144,7 @@ TEST(LightWeights, SumTenThousandInAnyOrder) {
     }
 }
 
-TEST(LightWeights, NameTheLampTheyRefuse) {
+TEST(LightWeights, NameTheLightTheyRefuse) {
     auto lights = table1::flat_lights();
     lights[1].color.y = -0.5;
     try {

@@ -47,12 +47,12 @@ TEST(ForEachBlock, EndsAllThreadsSoonAfterOneThrows) {
     EXPECT_LT(done, 100000U);
 }
 
-TEST(ForEachBlock, IsCancelledByWhatTheProgressFunctionThrows) {
+TEST(ForEachBlock, IsCanceledByWhatTheProgressFunctionThrows) {
     for (const int threads : {1, 4}) {
         std::atomic<std::size_t> started = 0;
         int told = 0;
         const auto cancel = [&](std::size_t) {
-            if (++told == 3) throw std::domain_error("cancelled");
+            if (++told == 3) throw std::domain_error("canceled");
         };
         const auto work = [&](std::size_t begin, std::size_t end) { started += end - begin; };
         EXPECT_THROW(for_each_block(std::size_t{1} << 40U, threads, work, cancel, 128), std::domain_error);

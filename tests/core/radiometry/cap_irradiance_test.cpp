@@ -16,7 +16,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// The same by brute force: rings around the middle of the patch, each with the closed-form arc above the
+/// The same by brute force: rings around the center of the patch, each with the closed-form arc above the
 /// horizon left out, so that nothing is shared with the code under test.
 double cap_by_quadrature(const SpotProfile* profile, const glm::dvec3& normal, const glm::dvec3& to_light,
                          const glm::dvec3& to_spot, double sin_radius) {
@@ -27,15 +27,15 @@ double cap_by_quadrature(const SpotProfile* profile, const glm::dvec3& normal, c
     constexpr int steps = 1200;
     double sum = 0;
     for (int i = 0; i < rings; ++i) {
-        const double square = (i + 0.5) / rings;  // equal shares of the projected disk
-        const double sine = sin_radius * std::sqrt(square);
+        const double radius_sq = (i + 0.5) / rings;  // equal areas of the projected disk
+        const double sine = sin_radius * std::sqrt(radius_sq);
         const double cosine = std::sqrt(1 - sine * sine);
         for (int k = 0; k < steps; ++k) {
             const double phi = 2 * pi * (k + 0.5) / steps;
             const glm::dvec3 direction =
                 cosine * to_light + sine * (std::cos(phi) * side + std::sin(phi) * other);
-            const double share = profile == nullptr ? 1.0 : profile->at(glm::dot(direction, to_spot));
-            sum += share * std::max(0.0, glm::dot(normal, direction)) / cosine;
+            const double falloff = profile == nullptr ? 1.0 : profile->at(glm::dot(direction, to_spot));
+            sum += falloff * std::max(0.0, glm::dot(normal, direction)) / cosine;
         }
     }
     return sum / (rings * steps);
@@ -94,7 +94,7 @@ TEST(SpotProfile, IsASmoothstepInTheCosine) {
     EXPECT_NEAR(SpotProfile(1.2, 0.25, true).at(0.95), 0.95, 1e-15);
 }
 
-TEST(SpotProfile, ThroughASoftLampAgreesWithQuadrature) {
+TEST(SpotProfile, ThroughASoftLightAgreesWithQuadrature) {
     RandomScene random(3);
     for (int i = 0; i < 12; ++i) {
         const SpotProfile spot(random.between(0.2, pi), random.between(0.1, 1.0), random.one_in(3));
@@ -107,14 +107,14 @@ TEST(SpotProfile, ThroughASoftLampAgreesWithQuadrature) {
     }
 }
 
-TEST(SpotProfile, WideOpenItIsTheLampItself) {
+TEST(SpotProfile, WideOpenItIsTheLightItself) {
     const SpotProfile spot(pi, 0.0, false);
     RandomScene random(4);
     for (int i = 0; i < 200; ++i) {
         const glm::dvec3 to_light = random.unit_vector();
         const glm::dvec3 normal = random.unit_vector();
         const double sine = random.between(1e-3, 0.3);
-        // The whole lamp is inside the half space that a cone of 180 degrees lights.
+        // The whole light is inside the half space that a cone of 180 degrees lights.
         const glm::dvec3 to_spot = glm::normalize(to_light + random.unit_vector() * 0.5);
         const double expected = cap_irradiance(glm::dot(normal, to_light), sine);
         EXPECT_NEAR(cap_irradiance_through_spot(spot, normal, to_light, to_spot, sine), expected, 1e-7) << i;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-FlatLight lamp(LightKind kind, double power) {
+FlatLight light_at(LightKind kind, double power) {
     FlatLight light;
     light.kind = kind;
     light.power = power;
@@ -45,14 +45,14 @@ std::string message_of(const FlatLight& light) {
 TEST(Irradiance, PointSpotAndSunAreTheirFormulae) {
     const glm::dvec3 normal = glm::normalize(glm::dvec3(0, 1, 1));
     const double point = 100 / (4 * pi * 4);
-    EXPECT_NEAR(irradiance_at({lamp(LightKind::point, 100)}, glm::dvec3(0.0), {0, 0, 3}).r, point, 1e-13);
-    EXPECT_NEAR(irradiance_at({lamp(LightKind::point, 100)}, glm::dvec3(0.0), normal).r,
+    EXPECT_NEAR(irradiance_at({light_at(LightKind::point, 100)}, glm::dvec3(0.0), {0, 0, 3}).r, point, 1e-13);
+    EXPECT_NEAR(irradiance_at({light_at(LightKind::point, 100)}, glm::dvec3(0.0), normal).r,
                 point * std::sqrt(0.5), 1e-13);
-    EXPECT_EQ(irradiance_at({lamp(LightKind::point, 100)}, glm::dvec3(0.0), {0, 0, -1}).r, 0.0);
-    EXPECT_NEAR(irradiance_at({lamp(LightKind::sun, 5)}, glm::dvec3(0.0), normal).r, 5 * std::sqrt(0.5),
+    EXPECT_EQ(irradiance_at({light_at(LightKind::point, 100)}, glm::dvec3(0.0), {0, 0, -1}).r, 0.0);
+    EXPECT_NEAR(irradiance_at({light_at(LightKind::sun, 5)}, glm::dvec3(0.0), normal).r, 5 * std::sqrt(0.5),
                 1e-13);
 
-    FlatLight spot = lamp(LightKind::spot, 100);
+    FlatLight spot = light_at(LightKind::spot, 100);
     spot.spot_angle = 1.0;
     spot.spot_blend = 0.5;
     EXPECT_NEAR(irradiance_at({spot}, glm::dvec3(0.0), {0, 0, 1}).r, point, 1e-13);
@@ -67,8 +67,8 @@ TEST(Irradiance, PointSpotAndSunAreTheirFormulae) {
                 point * std::pow(cosine, 4) * t * t * (3 - 2 * t), 1e-13);
 }
 
-TEST(Irradiance, SoftLampsAreWhatCyclesRenders) {
-    FlatLight light = lamp(LightKind::point, 100);
+TEST(Irradiance, SoftLightsAreWhatCyclesRenders) {
+    FlatLight light = light_at(LightKind::point, 100);
     light.radius = 0.5;
     // docs: measured with Cycles 3.4 to 5.2 on a white Lambert plane.
     EXPECT_NEAR(irradiance_at({light}, glm::dvec3(0.0), {0, 0, 1}).r, 1.8724, 5e-5);
@@ -78,9 +78,9 @@ TEST(Irradiance, SoftLampsAreWhatCyclesRenders) {
     EXPECT_NEAR(irradiance_at({light}, {0.1, 0, 2.2}, {1, 0, 0}).r, 100 / (4 * pi * 0.25), 1e-10);
 }
 
-TEST(Irradiance, FarAreaLampsOfEveryShapeAreAlike) {
+TEST(Irradiance, FarAreaLightsOfEveryShapeAreAlike) {
     for (const AreaShape shape : {AreaShape::rectangle, AreaShape::ellipse}) {
-        FlatLight light = lamp(LightKind::area, 100);
+        FlatLight light = light_at(LightKind::area, 100);
         light.area_shape = shape;
         for (const double size : {1e-300, 1e-30, 1e-9, 1e-5, 1e-3, 0.01}) {
             light.size_x = size;
@@ -90,7 +90,7 @@ TEST(Irradiance, FarAreaLampsOfEveryShapeAreAlike) {
         }
         EXPECT_EQ(irradiance_at({light}, {0, 0, 2.5}, {0, 0, -1}).r, 0.0);
     }
-    FlatLight line = lamp(LightKind::area, 100);
+    FlatLight line = light_at(LightKind::area, 100);
     line.size_x = 1.0;
     line.size_y = 1e-9;
     // A Lambert line along x: integral of h^2 / (x^2 + h^2)^2 dx / (pi length).
@@ -102,7 +102,7 @@ TEST(Irradiance, AreaLightWithASizeOfZeroGivesNone) {
     // Measured: Cycles 3.4, 4.5, 5.0 and 5.2 render nothing of one (tests/blender/inside/light_units.py).
     for (const AreaShape shape : {AreaShape::rectangle, AreaShape::ellipse}) {
         for (const auto& [size_x, size_y] : {std::pair(0.0, 1.0), std::pair(1.0, 0.0), std::pair(0.0, 0.0)}) {
-            FlatLight light = lamp(LightKind::area, 100);
+            FlatLight light = light_at(LightKind::area, 100);
             light.area_shape = shape;
             light.size_x = size_x;
             light.size_y = size_y;
@@ -174,42 +174,42 @@ TEST(Irradiance, ExtremesAreFinite) {
     }
 }
 
-TEST(Irradiance, ALampAtThePointIsHeldAtTheLeastDistance) {
-    const FlatLight light = lamp(LightKind::point, 1);
+TEST(Irradiance, ALightAtThePointIsAtTheMinDistance) {
+    const FlatLight light = light_at(LightKind::point, 1);
     EXPECT_NEAR(irradiance_at({light}, light.position, {1, 0, 0}).r / (1 / (4 * pi * 1e-12)), 1.0, 1e-12);
-    FlatLight panel = lamp(LightKind::area, 1);
+    FlatLight panel = light_at(LightKind::area, 1);
     panel.size_x = panel.size_y = 2;
     EXPECT_NEAR(irradiance_at({panel}, panel.position, {0, 0, 1}).r, 0.25,
                 1e-5);  // radiance 1 / (4 pi), all of the half sky
 }
 
-TEST(Irradiance, LampsThatAreOffAndNegativePower) {
-    FlatLight light = lamp(LightKind::point, -100);
+TEST(Irradiance, LightsThatAreOffAndNegativePower) {
+    FlatLight light = light_at(LightKind::point, -100);
     EXPECT_NEAR(irradiance_at({light}, glm::dvec3(0.0), {0, 0, 1}).r, -100 / (16 * pi), 1e-13);
     light.visible = false;
     EXPECT_EQ(object_irradiance({light}, glm::dvec3(0.0)), glm::dvec3(0.0));
 }
 
-TEST(Irradiance, TenThousandLampsAtOnePoint) {
-    const std::vector<Light> lights(10000, lamp(LightKind::point, 0.01));
+TEST(Irradiance, TenThousandLightsAtOnePoint) {
+    const std::vector<Light> lights(10000, light_at(LightKind::point, 0.01));
     EXPECT_NEAR(object_irradiance(lights, glm::dvec3(0.0)).r, 100 / (16 * pi), 1e-13);
 }
 
 TEST(Irradiance, BadInputIsNamed) {
-    FlatLight light = lamp(LightKind::spot, 1);
+    FlatLight light = light_at(LightKind::spot, 1);
     light.name = "Rim";
     light.spot_blend = 1.5;
     EXPECT_EQ(message_of(light), "light \"Rim\" spot_blend is 1.5; allowed: a number of 0 to 1");
     light.spot_blend = 0.5;
     light.spot_angle = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(message_of(light), "light \"Rim\" spot_angle is nan; allowed: an angle of 0 to pi radians");
-    light = lamp(LightKind::area, 1);
+    light = light_at(LightKind::area, 1);
     light.size_y = -1;
     EXPECT_EQ(message_of(light), "light size_y is -1; allowed: a finite number, 0 or more");
-    light = lamp(LightKind::point, 1e308);
+    light = light_at(LightKind::point, 1e308);
     light.position = glm::dvec3(0.0);
     EXPECT_NE(message_of(light).find("irradiance of light"), std::string::npos);
-    EXPECT_THROW(irradiance_at({lamp(LightKind::sun, 1)}, glm::dvec3(0.0), glm::dvec3(0.0)),
+    EXPECT_THROW(irradiance_at({light_at(LightKind::sun, 1)}, glm::dvec3(0.0), glm::dvec3(0.0)),
                  std::invalid_argument);
     EXPECT_THROW(object_irradiance({}, glm::dvec3(std::nan(""))), std::invalid_argument);
     EXPECT_THROW(object_irradiance({}, glm::dvec3(0.0), 0.0), std::invalid_argument);
@@ -227,13 +227,13 @@ TEST(LightUnits, AreBlenders) {
     EXPECT_NEAR(warm.g, 0.8443, 2e-4);
     EXPECT_NEAR(warm.b, 0.2722, 2e-4);
     EXPECT_THROW(black_body_color(100), std::invalid_argument);
-    FlatLight light = lamp(LightKind::area, 1);
+    FlatLight light = light_at(LightKind::area, 1);
     light.size_x = 2;
     light.size_y = 3;
     EXPECT_EQ(unnormalized_power_factor(light), 6.0);
     light.area_shape = AreaShape::ellipse;
     EXPECT_NEAR(unnormalized_power_factor(light), 1.5 * pi, 1e-14);
-    light = lamp(LightKind::point, 1);
+    light = light_at(LightKind::point, 1);
     light.radius = 0.5;
     EXPECT_NEAR(unnormalized_power_factor(light), pi, 1e-14);
 }

@@ -16,9 +16,9 @@ using namespace skinglow;
 namespace {
 
 Box random_box(RandomScene& random) {
-    const glm::dvec3 middle = random.unit_vector() * random.decades(0.01, 30.0);
+    const glm::dvec3 center = random.unit_vector() * random.decades(0.01, 30.0);
     const glm::dvec3 half = random.in_box(glm::dvec3(0.0), glm::dvec3(random.decades(0.001, 3.0)));
-    return {middle - half, middle + half};
+    return {center - half, center + half};
 }
 
 double largest(const glm::dvec3& v) {
@@ -126,9 +126,9 @@ TEST(LightBounds, ObjectWeightErrorHolds) {
     for (int trial = 0; trial < 200; ++trial) {
         const std::vector<Light> lights = random.lights(6);
         const Box box = random_box(random);
-        const glm::dvec3 middle = box.center();
-        const glm::dvec3 error = object_irradiance_error(lights, middle, box);
-        const glm::dvec3 here = object_irradiance(lights, middle);
+        const glm::dvec3 center = box.center();
+        const glm::dvec3 error = object_irradiance_error(lights, center, box);
+        const glm::dvec3 here = object_irradiance(lights, center);
         for (int i = 0; i < 8; ++i) {
             const glm::dvec3 there = object_irradiance(lights, random.in_box(box.min, box.max));
             EXPECT_LE(std::abs(there.g - here.g), error.g * (1 + 1e-12)) << trial;
@@ -213,12 +213,12 @@ TEST(LightCulling, EdgeCases) {
     EXPECT_TRUE(PreparedRig().cull(box, 1.0).kept.empty());
     EXPECT_THROW(PreparedRig().cull(box, -1.0), std::invalid_argument);
     EXPECT_THROW(PreparedRig().cull({glm::dvec3(1.0), glm::dvec3(0.0)}, 1.0), std::invalid_argument);
-    const std::vector<Light> one_place(10000);
-    EXPECT_EQ(PreparedRig(one_place).cull(box, 1.0).kept.size(), 10000U);
-    EXPECT_EQ(PreparedRig(one_place).cull({glm::dvec3(9.0), glm::dvec3(10.0)}, 1e6).kept.size(), 0U);
+    const std::vector<Light> one_position(10000);
+    EXPECT_EQ(PreparedRig(one_position).cull(box, 1.0).kept.size(), 10000U);
+    EXPECT_EQ(PreparedRig(one_position).cull({glm::dvec3(9.0), glm::dvec3(10.0)}, 1e6).kept.size(), 0U);
 }
 
-TEST(LightCulling, IdenticalLampsBecomeOne) {
+TEST(LightCulling, IdenticalLightsBecomeOne) {
     RandomScene random(17);
     std::vector<Light> lights;
     const FlatLight a = random.light();

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-FlatLight lamp(LightKind kind, const glm::dvec3& position, const glm::dvec3& direction = {0, 0, -1}) {
+FlatLight light_at(LightKind kind, const glm::dvec3& position, const glm::dvec3& direction = {0, 0, -1}) {
     FlatLight light;
     light.kind = kind;
     light.position = position;
@@ -25,9 +25,9 @@ FlatLight lamp(LightKind kind, const glm::dvec3& position, const glm::dvec3& dir
 }  // namespace
 
 TEST(LightReport, TellsDistanceAnglesWeightAndShare) {
-    std::vector<FlatLight> lights = {lamp(LightKind::point, {0, 0, 2}),
-                                     lamp(LightKind::spot, {1, 0, 1}, {-1, 0, -1}),
-                                     lamp(LightKind::point, {0, 0, -2})};
+    std::vector<FlatLight> lights = {light_at(LightKind::point, {0, 0, 2}),
+                                     light_at(LightKind::spot, {1, 0, 1}, {-1, 0, -1}),
+                                     light_at(LightKind::point, {0, 0, -2})};
     lights[0].name = "Key";
     const std::vector<LightReportEntry> report =
         light_report(made(lights), glm::dvec3(0.0), glm::dvec3(0, 0, 1));
@@ -44,18 +44,18 @@ TEST(LightReport, TellsDistanceAnglesWeightAndShare) {
 }
 
 TEST(LightReport, NamesEveryReason) {
-    std::vector<FlatLight> lights(12, lamp(LightKind::point, {0, 0, 2}));
+    std::vector<FlatLight> lights(12, light_at(LightKind::point, {0, 0, 2}));
     lights[1].visible = false;
     lights[2].power = 0;
     lights[3].color = glm::dvec3(0.0);
-    lights[4] = lamp(LightKind::spot, {0, 0, 2}, {1, 0, 0});
-    lights[5] = lamp(LightKind::spot, {0, 0, 2});
+    lights[4] = light_at(LightKind::spot, {0, 0, 2}, {1, 0, 0});
+    lights[5] = light_at(LightKind::spot, {0, 0, 2});
     lights[5].spot_angle = 0;
-    lights[6] = lamp(LightKind::area, {0, 0, 2}, {0, 0, 1});
-    lights[7] = lamp(LightKind::area, {5, 0, 2});
+    lights[6] = light_at(LightKind::area, {0, 0, 2}, {0, 0, 1});
+    lights[7] = light_at(LightKind::area, {5, 0, 2});
     lights[7].spread = 0.5;
     lights[10].position = {0, 0, 1e200};
-    lights[11] = lamp(LightKind::area, {0, 0, 2});
+    lights[11] = light_at(LightKind::area, {0, 0, 2});
     lights[11].size_y = 0;
     std::vector<bool> occluded(lights.size());
     occluded[8] = true;
@@ -73,7 +73,7 @@ TEST(LightReport, NamesEveryReason) {
 }
 
 TEST(LightReport, RefusesWhatDoesNotFit) {
-    const std::vector<FlatLight> lights(2, lamp(LightKind::point, {0, 0, 2}));
+    const std::vector<FlatLight> lights(2, light_at(LightKind::point, {0, 0, 2}));
     EXPECT_TRUE(light_report({}, glm::dvec3(0.0)).empty());
     EXPECT_THROW(light_report(made(lights), glm::dvec3(0.0), glm::dvec3(0.0)), std::invalid_argument);
     EXPECT_THROW(light_report(made(lights), glm::dvec3(0.0), std::nullopt, {true}), std::invalid_argument);

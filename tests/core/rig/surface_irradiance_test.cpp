@@ -115,7 +115,7 @@ TEST(SurfaceIrradiance, ARectangleIsExactToRoundingAndAWrongArcTangentWouldShow)
     });
 }
 
-TEST(SurfaceIrradiance, AddsLampsAndEnvironmentOnAnyNumberOfThreads) {
+TEST(SurfaceIrradiance, AddsLightsAndEnvironmentOnAnyNumberOfThreads) {
     RandomScene random(8);
     const Surface surface = random_surface(random, 1000);
     const std::vector<Light> lights = random.lights(20);
@@ -159,8 +159,8 @@ TEST(SurfaceIrradiance, NothingInNothingOutAndBadInputIsNamed) {
     }
 }
 
-TEST(AngularWeight, LightOfAWideLampCountsByTheAnglesOfItsParts) {
-    // Steep enough to tell the middle of the lamp from its rim.
+TEST(AngularWeight, AWideLightCountsByTheAnglesOfItsParts) {
+    // Steep enough to tell the center of the light from its rim.
     const AngularWeight weight(std::vector<double>{0.0, 1.0}, std::vector<double>{0.0, 1.0});
     std::vector<glm::dvec3> points;
     std::vector<glm::dvec3> normals;
@@ -192,7 +192,7 @@ TEST(AngularWeight, LightOfAWideLampCountsByTheAnglesOfItsParts) {
         double largest = 0;
         for (const glm::dvec3& e : in_parts) largest = std::max(largest, e.r);
         for (std::size_t i = 0; i < points.size(); ++i) {
-            EXPECT_NEAR(at_once[i].r, in_parts[i].r, 5e-3 * largest) << "height " << height << " place " << i;
+            EXPECT_NEAR(at_once[i].r, in_parts[i].r, 5e-3 * largest) << "height " << height << " point " << i;
         }
     }
 }

@@ -23,12 +23,12 @@ glm::dvec3 exact(const PreparedRig& lights, const glm::dvec3& point, const glm::
     return surface_irradiance(lights, {&point, 1}, {&normal, 1}, options)[0];
 }
 
-/// The largest difference from the exact irradiance over random places and normals, as a share of the largest
+/// The largest difference from the exact irradiance over random points and normals, as a fraction of the largest
 /// that there is.
 double largest_difference(const PreparedRig& lights, const SurfaceLighting& lighting, RandomScene& random,
                           const SurfaceOptions& options = {}) {
     double difference = 0;
-    double most = 0;
+    double largest = 0;
     for (int i = 0; i < 400; ++i) {
         const glm::dvec3 point = random.in_box(head.min, head.max);
         const glm::dvec3 normal = random.unit_vector();
@@ -36,10 +36,10 @@ double largest_difference(const PreparedRig& lights, const SurfaceLighting& ligh
         const glm::dvec3 shown = lighting.irradiance(point, normal);
         for (int c = 0; c < 3; ++c) {
             difference = std::max(difference, std::abs(shown[c] - truth[c]));
-            most = std::max(most, std::abs(truth[c]));
+            largest = std::max(largest, std::abs(truth[c]));
         }
     }
-    return most > 0 ? difference / most : difference;
+    return largest > 0 ? difference / largest : difference;
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ TEST(SurfaceLighting, IsExactForSmallPointsSharpSpotsAndSuns) {
     }
 }
 
-TEST(SurfaceLighting, SoftLampsAreWithinTheHorizonsParabola) {
+TEST(SurfaceLighting, SoftLightsAreWithinTheHorizonsParabola) {
     RandomScene random(4);
     for (int trial = 0; trial < 40; ++trial) {
         FlatLight light;
@@ -77,7 +77,7 @@ TEST(SurfaceLighting, SoftLampsAreWithinTheHorizonsParabola) {
     }
 }
 
-TEST(SurfaceLighting, CutsNearAreaLampsUntilTheyFit) {
+TEST(SurfaceLighting, CutsNearAreaLightsUntilTheyFit) {
     RandomScene random(5);
     FlatLight light;
     light.kind = LightKind::area;
@@ -102,7 +102,7 @@ TEST(SurfaceLighting, CutsNearAreaLampsUntilTheyFit) {
     }
 }
 
-TEST(SurfaceLighting, TilesAddUpToTheLamp) {
+TEST(SurfaceLighting, TilesAddUpToTheLight) {
     FlatLight light;
     light.kind = LightKind::area;
     light.position = {0.0, 0.0, 50.0};
@@ -120,7 +120,7 @@ TEST(SurfaceLighting, TilesAddUpToTheLamp) {
     }
 }
 
-TEST(SurfaceLighting, LampsBeyondTheTermsShineFromFarAway) {
+TEST(SurfaceLighting, LightsBeyondTheTermsShineFromFarAway) {
     RandomScene random(6);
     std::vector<FlatLight> lights(40);
     for (FlatLight& light : lights) {
@@ -209,7 +209,7 @@ TEST(SurfaceLighting, AnglesHardlyDependOnThickness) {
     EXPECT_THROW(skin_angular_weight(Tissue{}, 0.0), std::invalid_argument);
 }
 
-TEST(SurfaceLighting, SurvivesWhateverLampsThereAre) {
+TEST(SurfaceLighting, SurvivesWhateverLightsThereAre) {
     RandomScene random(9);
     for (int trial = 0; trial < 300; ++trial) {
         std::vector<FlatLight> lights;
@@ -237,7 +237,7 @@ TEST(SurfaceLighting, SurvivesWhateverLampsThereAre) {
     EXPECT_THROW(SurfaceLighting({}, head, {.tolerance = 0.0}), std::invalid_argument);
 }
 
-TEST(ObjectWeightError, HoldsForEveryPlaceAndNormalOfTheCone) {
+TEST(ObjectWeightError, HoldsForEveryPointAndNormalOfTheCone) {
     RandomScene random(10);
     int tight = 0;
     for (int trial = 0; trial < 400; ++trial) {
@@ -258,7 +258,7 @@ TEST(ObjectWeightError, HoldsForEveryPlaceAndNormalOfTheCone) {
     EXPECT_GT(tight, 20);
 }
 
-TEST(ObjectWeightError, IsSmallForAFlatPatchThatFacesADistantLamp) {
+TEST(ObjectWeightError, IsSmallForAFlatPatchThatFacesADistantLight) {
     FlatLight light;
     light.position = {0.0, 0.0, 100.0};
     light.power = 1000.0;
