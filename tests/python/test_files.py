@@ -1,125 +1,15 @@
-"""Files of every format as other libraries write them, read by the command line: extents, triangles, thickness."""
+"""Mesh files far from the origin, of unusual size, open, and outputs over them, by the command line."""
 
+import base64
 import json
 import os
-import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from mesh_files import ROOT, measured, peak_memory, run
 
-ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = Path(os.environ.get("SKINGLOW_CLI", ROOT / "build/release/bin/skinglow"))
-PLY_TYPES = {"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4"}
-
-
-def run(*arguments, code=0):
-    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120, check=False)
-    assert done.returncode == code, done.stdout + done.stderr
-    return done
-
-
-def measured(path, *options):
-    """Positions and thickness by vertex, and the number of triangles."""
-    output = path.with_name("out.csv")
-    done = run("thickness", path, "-o", output, "--rays", 16, *options)
-    rows = [line for line in output.read_text().splitlines() if line[0] not in "#v"]
-    table = np.array([row.split(",") for row in rows], float)
-    return table[:, 1:4], table[:, 4], int(done.stdout.split(" triangles")[0].split()[-1])
-
-
-def nearest(wanted, positions):
-    """For each wanted position the index of the nearest one. Sorting would swap what rounding brings close."""
-    return np.linalg.norm(wanted[:, None] - positions[None], axis=2).argmin(axis=1)
-
-
-def assert_same(mesh, result, tolerance=1e-5):
-    """The vertices and triangles that were written."""
-    positions, _thickness, triangles = result
-    assert triangles == len(mesh.faces)
-    assert len(positions) == len(mesh.vertices)
-    match = nearest(np.asarray(mesh.vertices), positions)
-    assert len(set(match)) == len(match)
-    np.testing.assert_allclose(positions[match], mesh.vertices, atol=tolerance)
-
-
-def solid(kind, size):
-    """A closed body of whole-number corners, so that every number type holds it."""
-    if kind == "ball":
-        body = trimesh.creation.icosphere(subdivisions=1, radius=100.0)
-    elif kind == "box":
-        body = trimesh.creation.box(size)
-    else:
-        body = trimesh.creation.cylinder(radius=40.0, height=float(size[2]), sections=12)
-    vertices = np.round(body.vertices)
-    return trimesh.Trimesh(vertices, body.faces, process=False)
-
-
-bodies = st.builds(
-    solid,
-    st.sampled_from(["ball", "box", "cylinder"]),
-    st.tuples(*[st.integers(5, 60).map(lambda half: 2 * half)] * 3),
-)
-
-
-@settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(bodies, st.booleans(), st.integers(0, 2**32 - 1))
-def test_scenes_of_transformed_and_mirrored_instances(tmp_path, body, mirrored, seed):
-    random = np.random.default_rng(seed)
-    scene = trimesh.Scene()
-    expected = []
-    for i in range(int(random.integers(1, 4))):
-        transform = trimesh.transformations.random_rotation_matrix(random.random(3))
-        scale = random.uniform(0.5, 2.0, 3) * ([-1.0, 1.0, 1.0] if mirrored else [1.0, 1.0, 1.0])
-        transform[:3, :3] = transform[:3, :3] @ np.diag(scale)
-        transform[:3, 3] = [1000.0 * i, *random.uniform(-50, 50, 2)]
-        scene.add_geometry(body, node_name=f"n{i}", geom_name="body", transform=transform)
-        expected.append(body.copy().apply_transform(transform))
-    whole = trimesh.util.concatenate(expected)
-    results = {}
-    for extension in ("glb", "obj", "ply", "stl"):
-        path = tmp_path / f"scene.{extension}"
-        if extension == "glb":
-            scene.export(path)
-        else:
-            whole.export(path)
-        results[extension] = measured(path, "--unit", 1)
-        assert_same(whole, results[extension], tolerance=2e-3)
-    for extension, (positions, thickness, _triangles) in results.items():
-        match = nearest(results["glb"][0], positions)
-        # Float32 lets single ones of the 16 rays pass an edge of these coarse bodies on its other side.
-        off = np.abs(thickness[match] / results["glb"][1] - 1.0)
-        assert np.quantile(off, 0.9) < 2e-3, extension
-        assert off.max() < 0.15, extension
-
-
-@settings(max_examples=20, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(bodies, st.sampled_from(sorted(PLY_TYPES)), st.sampled_from("<>"), st.booleans(), st.data())
-def test_ply_of_every_type_order_and_byte_order(tmp_path, body, index_type, endian, faces_first, data):
-    types = {**PLY_TYPES, "float": "f4", "double": "f8"}
-    holding = [name for name in types if name in ("short", "int", "float", "double")]
-    columns = [data.draw(st.sampled_from(holding)) for _ in range(3)]
-    vertex = np.zeros(len(body.vertices), [(axis, endian + types[t]) for axis, t in zip("xyz", columns, strict=True)])
-    for i, axis in enumerate("xyz"):
-        vertex[axis] = body.vertices[:, i]
-    face = np.zeros(len(body.faces), [("flag", "u1"), ("n", "u1"), ("i", endian + PLY_TYPES[index_type], 3)])
-    face["n"], face["i"] = 3, body.faces
-    header = {
-        "vertex": "\n".join(
-            [f"element vertex {len(vertex)}", *(f"property {t} {a}" for a, t in zip("xyz", columns, strict=True))]
-        ),
-        "face": f"element face {len(face)}\nproperty uchar flag\nproperty list uchar {index_type} vertex_indices",
-    }
-    order = ["face", "vertex"] if faces_first else ["vertex", "face"]
-    blobs = {"vertex": vertex.tobytes(), "face": face.tobytes()}
-    path = tmp_path / "body.ply"
-    coding = "little" if endian == "<" else "big"
-    text = "\n".join([f"ply\nformat binary_{coding}_endian 1.0", *(header[name] for name in order), "end_header\n"])
-    path.write_bytes(text.encode() + b"".join(blobs[name] for name in order))
-    assert_same(body, measured(path))
+MEGABYTE = 2**20
 
 
 def plate(offset=(0.0, 0.0, 0.0)):
@@ -127,30 +17,66 @@ def plate(offset=(0.0, 0.0, 0.0)):
     return trimesh.Trimesh(body.vertices + np.array(offset), body.faces, process=False)
 
 
-def test_five_kilometers_from_the_origin(tmp_path):
-    near = plate()
-    near.export(tmp_path / "near.ply")
-    origin, wanted, _count = measured(tmp_path / "near.ply")
-    offset = np.array((5e6, -5e6, 5e6))
-    far = plate(offset)
-    (tmp_path / "far.obj").write_text(
-        "".join(f"v {x:.9f} {y:.9f} {z:.9f}\n" for x, y, z in far.vertices)
-        + "".join(f"f {a} {b} {c}\n" for a, b, c in far.faces + 1)
-    )
-    rows = "".join(f"{x:.9f} {y:.9f} {z:.9f}\n" for x, y, z in far.vertices)
-    faces = "".join(f"3 {a} {b} {c}\n" for a, b, c in far.faces)
-    (tmp_path / "far.ply").write_text(
-        f"ply\nformat ascii 1.0\nelement vertex {len(far.vertices)}\nproperty double x\nproperty double y\n"
-        f"property double z\nelement face {len(far.faces)}\nproperty list uchar int vertex_indices\nend_header\n"
-        f"{rows}{faces}"
-    )
+def write_ply(path, vertices, faces, kind):
+    """As text, with every digit, or binary of that type."""
+    header = f"ply\nformat {{}} 1.0\nelement vertex {len(vertices)}\n"
+    header += "".join(f"property {kind} {axis}\n" for axis in "xyz")
+    header += f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    if path.stem.endswith("text"):
+        rows = [" ".join(map(repr, map(float, row))) for row in vertices] + [f"3 {a} {b} {c}" for a, b, c in faces]
+        path.write_text(header.format("ascii") + "\n".join(rows) + "\n")
+        return
+    face = np.zeros(len(faces), [("count", "u1"), ("corners", "<i4", 3)])
+    face["count"], face["corners"] = 3, faces
+    numbers = vertices.astype({"float": "<f4", "double": "<f8"}[kind])
+    path.write_bytes(header.format("binary_little_endian").encode() + numbers.tobytes() + face.tobytes())
+
+
+def write_stl_text(path, vertices, faces):
+    loops = ("".join(f"vertex {x!r} {y!r} {z!r}\n" for x, y, z in vertices[face].tolist()) for face in faces)
+    facets = "".join(f"facet normal 0 0 0\nouter loop\n{loop}endloop\nendfacet\n" for loop in loops)
+    path.write_text(f"solid far\n{facets}endsolid far\n")
+
+
+def write_far_files(folder, near, offset):
+    """The plate in all formats, its offset in a node's transform where they have one."""
+    far = near.vertices + offset
+    obj = "".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in far.tolist())
+    (folder / "far.obj").write_text(obj + "".join(f"f {a} {b} {c}\n" for a, b, c in near.faces + 1))
+    for name, kind in (("double_text", "double"), ("float_text", "float"), ("double", "double"), ("float", "float")):
+        write_ply(folder / f"far_{name}.ply", far, near.faces, kind)
+    write_stl_text(folder / "far_text.stl", far, near.faces)
+    trimesh.Trimesh(far, near.faces, process=False).export(folder / "far.stl")
+    trimesh.Trimesh(far, near.faces, process=False).export(folder / "far_vertices.glb")
     scene = trimesh.Scene()
     scene.add_geometry(near, transform=trimesh.transformations.translation_matrix(offset))
-    scene.export(tmp_path / "far.glb")
-    for name in ("far.obj", "far.ply", "far.glb"):
-        positions, thickness, _count = measured(tmp_path / name, "--unit", 1)
-        match = nearest(origin, positions - offset)
-        np.testing.assert_allclose(thickness[match], wanted, rtol=1e-3, err_msg=name)
+    scene.export(folder / "far.glb")
+    for name, content in trimesh.exchange.gltf.export_gltf(scene).items():
+        (folder / ("far.gltf" if name == "model.gltf" else name)).write_bytes(content)
+
+
+def test_five_kilometers_from_the_origin(tmp_path):
+    """In mm. Binary STL, PLY of floats and the vertices of glTF have a grain of 0.5 mm there: a plate on that grain is
+    read as it is, and another one as the file has it."""
+    offset = np.array((5e6, -5e6, 5e6))
+    near = plate()
+    wanted = {}
+    for name, body in (("any", near), ("grain", trimesh.Trimesh(np.round(near.vertices * 2) / 2, near.faces))):
+        (tmp_path / name).mkdir()
+        body.export(tmp_path / name / "near.ply")
+        wanted[name] = measured(tmp_path / name / "near.ply", rays=32).by_position()
+        write_far_files(tmp_path / name, body, offset)
+    coarse = {"far_float.ply", "far.stl", "far_vertices.glb"}
+    files = {path.name for path in (tmp_path / "any").glob("far*.[gops]*")}
+    assert len(files) == 10
+    for name in sorted(files):
+        kind = "grain" if name in coarse else "any"
+        result = measured(tmp_path / kind / name, "--unit", 1, rays=32)
+        assert len(result.positions) == len(wanted[kind])
+        places = np.array(list(wanted[kind]))
+        match = np.linalg.norm(places[:, None] - (result.positions - offset)[None], axis=2).argmin(axis=1)
+        mm = list(wanted[kind].values())
+        np.testing.assert_allclose(result.thickness[match], mm, rtol=1e-3, err_msg=name)
 
 
 def test_what_found_no_far_side_is_told(tmp_path):
@@ -160,6 +86,67 @@ def test_what_found_no_far_side_is_told(tmp_path):
     assert "4 of 4 vertices (100 %) found no far side" in done.stderr
     plate().export(tmp_path / "plate.ply")
     assert run("thickness", tmp_path / "plate.ply", "-o", tmp_path / "t.csv").stderr == ""
+
+
+def write_round_polygon(folder, corners=900_000):
+    angle = 2.0 * np.pi * np.arange(corners) / corners
+    radius = np.where(np.arange(corners) % 2 == 0, 100.0, 99.9)
+    points = np.stack([radius * np.cos(angle), radius * np.sin(angle), np.zeros(corners)], 1)
+    lines = "\n".join(f"v {x:.6f} {y:.6f} {z:.0f}" for x, y, z in points)
+    path = folder / "polygon.obj"
+    path.write_text(lines + "\nf " + " ".join(map(str, range(1, corners + 1))) + "\n")
+    return path
+
+
+def write_gltf(path, nodes, **more):
+    """A triangle, shown by the nodes."""
+    data = np.eye(3, dtype="<f4").tobytes()
+    document = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": 36, "uri": "data:;base64," + base64.b64encode(data).decode()}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}, *more.pop("accessors", [])],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "nodes": nodes,
+        **more,
+    }
+    path.write_text(json.dumps(document))
+    return path
+
+
+def test_memory_is_in_proportion_to_the_file(tmp_path):
+    """Ten times the file's size, what the program itself takes, and 16 MB."""
+    itself, _ = peak_memory("thickness", plate_file(tmp_path), "-o", tmp_path / "t.ply", "--rays", 1)
+    instanced = {"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 1}}}}
+    zeros = {"componentType": 5126, "count": 3_000_000, "type": "VEC3"}
+    deep = [{"children": [i + 1]} for i in range(30_000)] + [{"mesh": 0}]
+    twice = [{"children": [i + 1, i + 1]} for i in range(30)] + [{"mesh": 0}]
+    cases = [
+        (write_round_polygon(tmp_path), 0, "no far side"),
+        (write_gltf(tmp_path / "deep.gltf", deep), 0, "no far side"),
+        (write_gltf(tmp_path / "twice.gltf", twice), 2, "the child of a node twice"),
+        (write_gltf(tmp_path / "instances.gltf", [instanced], accessors=[zeros]), 2, "repeats its meshes"),
+        (write_gltf(tmp_path / "zeros.gltf", [instanced], accessors=[{**zeros, "count": 10**15}]), 2, "no data"),
+        (write_gltf(tmp_path / "lists.gltf", [{"mesh": 0}], extras=[[]] * 4_100_000), 2, "4000000 values"),
+    ]
+    for path, code, words in cases:
+        used, said = peak_memory("thickness", path, "-o", tmp_path / "t.ply", "--rays", 1, code=code)
+        assert words in said
+        assert used < itself + 10 * path.stat().st_size + 16 * MEGABYTE, path.name
+
+
+def plate_file(folder):
+    plate().export(folder / "plate.ply")
+    return folder / "plate.ply"
+
+
+@pytest.mark.parametrize("name", ["/dev/zero", "/dev/stdin", "/proc/self/mem"])
+def test_devices_are_refused_at_once(tmp_path, name):
+    for extension in ("obj", "ply", "glb", "stl"):
+        path = tmp_path / f"device.{extension}"
+        path.symlink_to(name)
+        done = run("thickness", path, "-o", tmp_path / "t.csv", code=2)
+        assert done.stderr.startswith("skinglow: file ") and done.stderr.count("\n") == 1
 
 
 @pytest.mark.parametrize("name", ["pipe.ply", "pipe.obj", "pipe.glb", "pipe.stl"])

@@ -1,11 +1,10 @@
 """skinglow.thickness on real heads, where they are at hand (../shared from the project's root)."""
 
-import json
-import struct
 from pathlib import Path
 
 import numpy as np
 import pytest
+from mesh_files import measured
 from skinglow._thickness import thickness
 
 HEADS = Path(__file__).resolve().parents[3] / "shared" / "data" / "heads"
@@ -23,37 +22,15 @@ def at_hand(name):
 @pytest.fixture(scope="module")
 def makehuman():
     """(vertices in mm, triangles) of the group "body"; closed, symmetric, with mouth and sockets."""
-    vertices, triangles, body = [], [], False
-    for line in at_hand("makehuman_base.obj").read_text().splitlines():
-        match line.split():
-            case ["v", *numbers]:
-                vertices.append([float(x) for x in numbers])
-            case ["g", name]:
-                body = name == "body"
-            case ["f", *corners] if body:
-                f = [int(c.split("/")[0]) - 1 for c in corners]
-                triangles += [[f[0], f[i], f[i + 1]] for i in range(1, len(f) - 1)]
-    used, triangles = np.unique(triangles, return_inverse=True)
-    return np.array(vertices)[used] * 100.0, triangles.reshape(-1, 3)
+    body = measured(at_hand("makehuman_base.obj"), "--group", "body", rays=1)
+    return body.positions * 100.0, body.triangles
 
 
 @pytest.fixture(scope="module")
 def lee_perry_smith():
-    """(vertices in mm, triangles) of the scan; open at the neck, split along its texture's seams."""
-    data = at_hand("LeePerrySmith.glb").read_bytes()
-    (length,) = struct.unpack_from("<I", data, 12)
-    gltf = json.loads(data[20 : 20 + length])
-    (primitive,) = gltf["meshes"][0]["primitives"]
-
-    def numbers(index, per_row):
-        accessor = gltf["accessors"][index]
-        view = gltf["bufferViews"][accessor["bufferView"]]
-        start = 20 + length + 8 + view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        kind = {5126: "<f4", 5125: "<u4", 5123: "<u2"}[accessor["componentType"]]
-        return np.frombuffer(data, kind, accessor["count"] * per_row, start).reshape(-1, 3)
-
-    vertices = numbers(primitive["attributes"]["POSITION"], 3).astype(float) * 50.35
-    return vertices, numbers(primitive["indices"], 1)
+    """(vertices in mm, triangles) of the scan; open at the neck."""
+    head = measured(at_hand("LeePerrySmith.glb"), rays=1)
+    return head.positions * 50.35, head.triangles
 
 
 def foremost(mm, region):
@@ -94,14 +71,14 @@ def test_ears_are_thin_and_the_skull_and_the_face_are_not(request, head, ear_x, 
     assert np.mean(result[skin] < 10.0) < 0.05
 
 
-def test_vertices_split_by_a_texture_seam_have_one_value(lee_perry_smith):
+def test_vertices_split_at_every_triangle_have_one_value(lee_perry_smith):
     mm, triangles = lee_perry_smith
-    result = thickness(mm, triangles)
-    _, index, count = np.unique(mm, axis=0, return_inverse=True, return_counts=True)
-    assert (count > 1).sum() > 50
-    low, high = np.full(len(count), np.inf), np.full(len(count), -np.inf)
-    np.minimum.at(low, index.ravel(), result)
-    np.maximum.at(high, index.ravel(), result)
+    corners = mm[triangles].reshape(-1, 3)
+    result = thickness(corners, np.arange(len(corners)).reshape(-1, 3))
+    index = triangles.ravel()
+    low, high = np.full(len(mm), np.inf), np.full(len(mm), -np.inf)
+    np.minimum.at(low, index, result)
+    np.maximum.at(high, index, result)
     np.testing.assert_array_equal(low, high)
 
 

@@ -50,11 +50,13 @@ unsigned quantize(double linear, Encoding encoding, unsigned levels) {
     return static_cast<unsigned>(std::lround(encoded * levels));
 }
 
-std::optional<glm::dmat3> to_rec709(const Chromaticities& from) {
+bool is_rec709(const Chromaticities& chromaticities) {
     constexpr double rounding = 1e-3;  // files have three to five digits
-    const bool same = std::equal(from.begin(), from.end(), rec709.begin(),
-                                 [](double a, double b) { return std::abs(a - b) < rounding; });
-    if (same) return std::nullopt;
+    return std::equal(chromaticities.begin(), chromaticities.end(), rec709.begin(),
+                      [](double a, double b) { return std::abs(a - b) < rounding; });
+}
+
+std::optional<glm::dmat3> to_rec709(const Chromaticities& from) {
     for (std::size_t i = 1; i < from.size(); i += 2) {
         if (!(std::abs(from[i]) > 1e-6)) return std::nullopt;
     }

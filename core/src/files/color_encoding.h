@@ -41,8 +41,11 @@ struct ColorEncoding {
 /// that is not read
 std::optional<ColorEncoding> read_png_encoding(const std::filesystem::path& path);
 
-/// Takes linear RGB of other primaries to linear Rec.709, white to white (Bradford); none where they are
-/// Rec.709's, up to rounding, or span no color space.
+/// Whether they are Rec.709's, up to rounding.
+bool is_rec709(const Chromaticities& chromaticities);
+
+/// Takes linear RGB of other primaries to linear Rec.709, white to white (Bradford); none where they span no
+/// color space.
 std::optional<glm::dmat3> to_rec709(const Chromaticities& from);
 
 }  // namespace skinglow::detail

@@ -67,9 +67,13 @@ void decode(LinearImage& image, const ColorEncoding& encoding) {
         image.notes.emplace_back("its values were decoded from sRGB to linear light");
     }
     if (!encoding.note.empty()) image.notes.push_back(encoding.note);
-    if (image.gray || !encoding.chromaticities) return;
+    if (image.gray || !encoding.chromaticities || is_rec709(*encoding.chromaticities)) return;
     const auto matrix = to_rec709(*encoding.chromaticities);
-    if (!matrix) return;
+    if (!matrix) {
+        image.notes.emplace_back(
+            "its primaries span no colors and are not read; they are taken as Rec.709's");
+        return;
+    }
     for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
         const glm::dvec3 color = *matrix * glm::dvec3(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]);
         for (int k = 0; k < 3; ++k) image.rgb[i + static_cast<std::size_t>(k)] = static_cast<float>(color[k]);
