@@ -11,7 +11,7 @@
 #include <limits>
 #include <random>
 
-#include "core/random_tissue.h"
+#include "random_tissue.h"
 
 namespace skinglow {
 namespace {
