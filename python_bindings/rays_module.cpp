@@ -11,4 +11,5 @@ PYBIND11_MODULE(_rays, m) {
     pybind11::module_::import("skinglow._core");  // knows the lights
     skinglow::bind_thickness(m);
     skinglow::bind_occlusion(m);
+    skinglow::bind_shape(m);
 }

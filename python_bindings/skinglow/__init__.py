@@ -63,6 +63,7 @@ from skinglow._core import (
 )
 from skinglow._occlusion import Occluders, VisibleFraction
 from skinglow._renamed import __getattr__ as __getattr__
+from skinglow._shape import Shape, ShapePart
 from skinglow._spectra import line_spectrum
 from skinglow._thickness import ThicknessReport, thickness, thickness_report
 
@@ -135,6 +136,9 @@ __all__ = [
     # Meshes
     "Occluders",
     "VisibleFraction",
+    # Light through the real shape
+    "Shape",
+    "ShapePart",
     "ThicknessReport",
     "thickness",
     "thickness_report",

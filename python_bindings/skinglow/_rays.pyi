@@ -1,12 +1,12 @@
 """Types of the compiled module with Embree. skinglow.thickness and skinglow.Occluders load it with care."""
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from skinglow._core import Light
+from skinglow._core import Light, Tissue
 
 DEFAULT_RAYS: Final[int]
 DEFAULT_CONE_HALF_ANGLE: Final[float]
@@ -41,3 +41,31 @@ class Occluders:
         excluded: Sequence[int],
         threads: int,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+
+class ShapeCancelled(RuntimeError):
+    """Raised where progress asks to stop."""
+
+class Shape:
+    def __init__(
+        self,
+        vertices: ArrayLike,
+        triangles: ArrayLike,
+        tissue: Tissue | None,
+        absorption: ArrayLike | None,
+        reduced_scattering: ArrayLike | None,
+        refractive_index: float,
+        surface: str,
+        unit_mm: float,
+        cell_mm: float,
+        max_thickness_mm: float,
+        points: ArrayLike | None,
+        normals: ArrayLike | None,
+        threads: int,
+        progress: Callable[[float], bool] | None,
+    ) -> None: ...
+    @property
+    def points(self) -> NDArray[np.float64]: ...
+    @property
+    def bytes(self) -> int: ...
+    def parts(self) -> list[dict[str, Any]]: ...
+    def exitance(self, irradiance: ArrayLike) -> NDArray[np.float64]: ...

@@ -19,6 +19,7 @@ PUBLIC = {
     "occlusion.h": "rays",
     "povray.h": "povray",
     "rig.h": "rig",
+    "shape.h": "shape",
     "slab.h": "slab",
     "spectrum.h": "color",
     "surface_lighting.h": "rig",

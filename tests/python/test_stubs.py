@@ -100,6 +100,8 @@ def test_package_exports_every_name_once() -> None:
         "thickness_report",
         "Occluders",
         "VisibleFraction",
+        "Shape",
+        "ShapePart",
     }
     assert sorted(imported) == sorted(ast.literal_eval(exported.value)) == sorted(public)
 
@@ -153,8 +155,13 @@ def test_stub_of_the_rays_is_that_of_the_module() -> None:
     (function,) = in_stub["thickness_report"]
     assert parameters(function) == parameters(bound_signature(rays.thickness_report))
     assert issubclass(rays.ThicknessCancelled, RuntimeError)
-    (owner,) = in_stub["Occluders"]
-    methods = definitions(owner)
-    for name in ("__init__", "visible_fraction"):
-        assert parameters(methods[name][0]) == parameters(bound_signature(getattr(rays.Occluders, name)))
-    assert set(methods) == {"__init__", "__len__", *(name for name in vars(rays.Occluders) if is_public(name))}
+    assert issubclass(rays.ShapeCancelled, RuntimeError)
+    for name in ("Occluders", "Shape"):
+        (owner,) = in_stub[name]
+        methods = definitions(owner)
+        module_class = getattr(rays, name)
+        made = {key: value for key, value in vars(module_class).items() if is_public(key) or key in SPECIAL}
+        assert set(methods) == {key for key in made if key != "__eq__"}
+        for key, value in made.items():
+            if type(value).__name__ in METHODS and key != "__len__":
+                assert parameters(methods[key][0]) == parameters(bound_signature(value)), key

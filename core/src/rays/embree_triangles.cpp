@@ -74,9 +74,11 @@ void reject_excluded(const RTCFilterFunctionNArguments* arguments) {
 }
 
 /// Intersection filter: shows each hit to the visitor and rejects it, so that the ray goes on; or accepts it
-/// to end the ray at the limit.
+/// to end the ray at the limit. Without a visitor every hit counts.
 void show_to_visitor(const RTCFilterFunctionNArguments* arguments) {
-    const HitVisitor& visitor = *reinterpret_cast<const FilterContext*>(arguments->context)->visitor;
+    const HitVisitor* asked = reinterpret_cast<const FilterContext*>(arguments->context)->visitor;
+    if (asked == nullptr) return;
+    const HitVisitor& visitor = *asked;
     for (unsigned int i = 0; i < arguments->N; ++i) {
         if (arguments->valid[i] == 0) continue;
         float& end = RTCRayN_tfar(arguments->ray, arguments->N, i);
@@ -108,6 +110,26 @@ void add_triangles(RTCDevice device, RTCScene scene, std::span<const glm::dvec3>
     rtcSetGeometryIntersectFilterFunction(geometry, show_to_visitor);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
+}
+
+RTCRayHit intersect(RTCScene scene, const glm::dvec3& origin, const glm::dvec3& direction, float from,
+                    const HitVisitor* visitor) {
+    RTCRayHit query{};
+    query.ray = ray_from(origin, direction, from, std::numeric_limits<float>::infinity());
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    FilterContext context{.embree = {}, .excluded = {}, .visitor = visitor};
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&context.embree);
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &context.embree;
+    rtcIntersect1(scene, &query, &arguments);
+#else
+    rtcInitIntersectContext(&context.embree);
+    rtcIntersect1(scene, &context.embree, &query);
+#endif
+    return query;
 }
 
 }  // namespace
@@ -148,21 +170,14 @@ EmbreeTriangles::EmbreeTriangles(std::span<const glm::dvec3> points, std::span<c
 
 void EmbreeTriangles::visit(const glm::dvec3& origin, const glm::dvec3& direction, float from,
                             const HitVisitor& visitor) const {
-    RTCRayHit query{};
-    query.ray = ray_from(origin, direction, from, std::numeric_limits<float>::infinity());
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    FilterContext context{.embree = {}, .excluded = {}, .visitor = &visitor};
-#if RTC_VERSION_MAJOR >= 4
-    rtcInitRayQueryContext(&context.embree);
-    RTCIntersectArguments arguments;
-    rtcInitIntersectArguments(&arguments);
-    arguments.context = &context.embree;
-    rtcIntersect1(handles_->scene.get(), &query, &arguments);
-#else
-    rtcInitIntersectContext(&context.embree);
-    rtcIntersect1(handles_->scene.get(), &context.embree, &query);
-#endif
+    intersect(handles_->scene.get(), origin, direction, from, &visitor);
+}
+
+std::optional<TriangleHit> EmbreeTriangles::nearest(const glm::dvec3& origin, const glm::dvec3& direction,
+                                                    float from) const {
+    const RTCRayHit found = intersect(handles_->scene.get(), origin, direction, from, nullptr);
+    if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return TriangleHit{found.ray.tfar, found.hit.primID, found.hit.u, found.hit.v};
 }
 
 bool EmbreeTriangles::occluded(const glm::dvec3& origin, const glm::dvec3& direction, float from, float to,

@@ -4,6 +4,7 @@
 #include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "numerics/detail.h"
@@ -14,6 +15,13 @@ namespace skinglow::detail {
 struct TriangleRange {
     std::uint32_t begin;
     std::uint32_t end;
+};
+
+/// Where a ray meets a triangle.
+struct TriangleHit {
+    float distance;
+    std::uint32_t triangle;
+    float u, v;  ///< barycentric, of the triangle's second and third corner
 };
 
 /// Told each hit of a ray, in no order: distance and triangle. Returns how far along the ray hits still
@@ -35,6 +43,10 @@ class EmbreeTriangles {
     /// @param direction  unit length
     void visit(const glm::dvec3& origin, const glm::dvec3& direction, float from,
                const HitVisitor& visitor) const;
+
+    /// The nearest hit of a ray from a distance on, on either side of a triangle; none where it meets nothing.
+    /// @param direction  unit length
+    std::optional<TriangleHit> nearest(const glm::dvec3& origin, const glm::dvec3& direction, float from) const;
 
     /// Whether a triangle lies between two distances along a ray.
     /// @param direction  unit length

@@ -9,6 +9,7 @@
 #include <skinglow/occlusion.h>
 #include <skinglow/povray.h>
 #include <skinglow/rig.h>
+#include <skinglow/shape.h>
 #include <skinglow/slab.h>
 #include <skinglow/spectrum.h>
 #include <skinglow/surface_lighting.h>
@@ -88,6 +89,9 @@ int main() {
     };
     expect_near("light behind a wall", seen({0}), 0.0, 0.0);
     expect_near("light without the wall", seen({0, 1}), 1.0, 0.0);
+
+    const Shape plate(skin, ShapeMedium{glm::dvec3(0.1), glm::dvec3(1.0)}, {.unit_mm = 10.0});
+    expect_near("parts of a plate", static_cast<double>(plate.parts().size()), 1.0, 0.0);
 
     PovrayScene scene;
     scene.mesh.geometry = skin;

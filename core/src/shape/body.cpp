@@ -1,0 +1,136 @@
+#include "shape/body.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+#include "geometry/vector.h"
+#include "geometry/weld.h"
+#include "numerics/argument_check.h"
+#include "shape/face_orientation.h"
+
+namespace skinglow::detail {
+namespace {
+
+/// The corners with the least first, in the order of the winding; and whether the winding is that of the sorted
+/// corners, which tells a triangle from its mirror image.
+struct TriangleKey {
+    glm::uvec3 sorted;
+    bool is_even;
+};
+
+TriangleKey key_of(const glm::uvec3& corners) {
+    glm::uvec3 c = corners;
+    bool is_even = true;
+    const auto order = [&](int a, int b) {
+        if (c[a] <= c[b]) return;
+        std::swap(c[a], c[b]);
+        is_even = !is_even;
+    };
+    order(0, 1);
+    order(1, 2);
+    order(0, 1);
+    return {c, is_even};
+}
+
+/// Which triangles stay: of those on the same corners one, and none where as many face either way.
+std::vector<bool> kept_once(std::span<const BodyTriangle> triangles) {
+    struct Entry {
+        TriangleKey key;
+        std::uint32_t index;
+    };
+    std::vector<Entry> entries(triangles.size());
+    for (std::uint32_t i = 0; i < entries.size(); ++i) entries[i] = {key_of(triangles[i].welded), i};
+    const auto tuple = [](const Entry& e) {
+        return std::array{e.key.sorted.x, e.key.sorted.y, e.key.sorted.z, e.index};
+    };
+    std::sort(entries.begin(), entries.end(),
+              [&](const Entry& a, const Entry& b) { return tuple(a) < tuple(b); });
+    std::vector<bool> kept(triangles.size(), false);
+    for (std::size_t i = 0; i < entries.size();) {
+        std::size_t end = i;
+        int sum = 0;
+        for (; end < entries.size() && entries[end].key.sorted == entries[i].key.sorted; ++end)
+            sum += entries[end].key.is_even ? 1 : -1;
+        for (std::size_t k = i; k < end && sum != 0; ++k) {
+            if (entries[k].key.is_even != (sum > 0)) continue;
+            kept[entries[k].index] = true;
+            break;
+        }
+        i = end;
+    }
+    return kept;
+}
+
+}  // namespace
+
+Body::Body(const MeshView& mesh, double unit_mm) : unit_mm_(unit_mm) {
+    const auto given = mesh.vertices();
+    const auto box = box_of(std::span(&mesh, 1));
+    if (box) origin_ = box->center();
+    if (box && !(box->radius() * unit_mm < 0.1 * std::numeric_limits<float>::max())) {
+        refuse_argument("vertices", to_text(box->radius() * unit_mm) + " mm across",
+                        "a mesh whose size single precision can hold");
+    }
+    Weld weld = detail::weld(given);
+    positions_.reserve(weld.first.size());
+    for (const std::uint32_t first : weld.first) positions_.push_back(local(given[first]));
+    welded_of_ = std::move(weld.index);
+    add_triangles(mesh.triangles());
+    turn_outward();
+    index_triangles();
+}
+
+void Body::add_triangles(std::span<const glm::uvec3> triangles) {
+    std::vector<BodyTriangle> all;
+    all.reserve(triangles.size());
+    for (const glm::uvec3& t : triangles) {
+        const glm::uvec3 welded(welded_of_[t.x], welded_of_[t.y], welded_of_[t.z]);
+        const glm::dvec3 a = positions_[welded.x];
+        const glm::dvec3 b = positions_[welded.y];
+        const glm::dvec3 c = positions_[welded.z];
+        const glm::dvec3 normal = triangle_normal(a, b, c);
+        const auto area = static_cast<float>(0.5 * length(glm::cross(b - a, c - a)));
+        if (normal == glm::dvec3(0.0) || !(area > 0)) continue;
+        all.push_back({t, welded, normal, area});
+    }
+    const std::vector<bool> kept = kept_once(all);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (kept[i]) triangles_.push_back(all[i]);
+    }
+}
+
+void Body::turn_outward() {
+    const auto turn = [](BodyTriangle& t) {
+        std::swap(t.corners.y, t.corners.z);
+        std::swap(t.welded.y, t.welded.z);
+        t.normal = -t.normal;
+    };
+    const std::vector<bool> against = against_neighbors(triangles_);
+    double volume = 0;
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+        BodyTriangle& t = triangles_[i];
+        if (against[i]) turn(t);
+        volume += static_cast<double>(t.area) * glm::dot(glm::dvec3(t.normal), glm::dvec3(corner(t, 0)));
+    }
+    if (volume >= 0) return;
+    for (BodyTriangle& t : triangles_) turn(t);
+}
+
+void Body::index_triangles() {
+    begin_.assign(positions_.size() + 1, 0);
+    for (const BodyTriangle& t : triangles_) {
+        for (int k = 0; k < 3; ++k) ++begin_[t.welded[k] + 1];
+    }
+    for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+    at_.resize(begin_.back());
+    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+        for (int k = 0; k < 3; ++k) at_[next[triangles_[i].welded[k]]++] = i;
+    }
+}
+
+}  // namespace skinglow::detail

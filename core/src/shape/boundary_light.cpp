@@ -1,0 +1,169 @@
+#include "shape/boundary_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace skinglow::detail {
+namespace {
+
+/// A ghost takes what lies within this distance of it along the surface, squared, in cells.
+constexpr float max_aside_sq = 1.2F;
+
+/// Decay times height up to which a field is followed beyond the surface.
+constexpr double max_rise = 1.5;
+
+/// Indices of samples, grouped by a key from 0 to `count`.
+class Groups {
+  public:
+    template <typename Key>
+    Groups(std::size_t items, std::size_t count, const Key& key) : begin_(count + 1, 0), item_(items) {
+        for (std::uint32_t i = 0; i < items; ++i) ++begin_[key(i) + 1];
+        for (std::size_t g = 1; g <= count; ++g) begin_[g] += begin_[g - 1];
+        std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+        for (std::uint32_t i = 0; i < items; ++i) item_[next[key(i)]++] = i;
+    }
+    std::span<const std::uint32_t> at(std::size_t group) const {
+        return {item_.data() + begin_[group], begin_[group + 1] - begin_[group]};
+    }
+
+  private:
+    std::vector<std::uint32_t> begin_;
+    std::vector<std::uint32_t> item_;
+};
+
+std::array<float, 3> weights_of(const BoundarySample& s) {
+    return {1 - s.u - s.v, s.u, s.v};
+}
+
+std::size_t vertices_of(const Body& body) {
+    return body.welded_of().size();
+}
+
+/// A ghost that leans on a sample.
+struct Lean {
+    std::uint32_t ghost;
+    std::uint32_t sample;
+    float weight;
+    float height;  ///< of the ghost over the sample's plane, mm, 0 or more
+};
+
+std::vector<Lean> find_leans(const Body& body, const VoxelGrid& grid, std::span<const BoundarySample> samples,
+                             std::vector<std::int32_t>& index, std::uint32_t& ghosts) {
+    std::vector<Lean> leans;
+    const float h = grid.cell();
+    for (std::uint32_t i = 0; i < samples.size(); ++i) {
+        const BoundarySample& s = samples[i];
+        const BodyTriangle& t = body.triangles()[s.triangle];
+        const glm::vec3 point = body.at(t, s.u, s.v);
+        const glm::ivec3 middle = grid.place_of(point);
+        for (int n = 0; n < 27; ++n) {
+            const glm::ivec3 place = middle + glm::ivec3(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
+            if (grid.at(place) != VoxelGrid::outside) continue;
+            const glm::vec3 off = grid.center_of(place) - point;
+            const float height = std::max(0.0F, glm::dot(off, t.normal));
+            const float aside_sq = glm::dot(off, off) - height * height;
+            if (aside_sq > max_aside_sq * h * h) continue;
+            std::int32_t& number = index[grid.linear(place)];
+            if (number < 0) number = static_cast<std::int32_t>(grid.size() + ghosts++);
+            leans.push_back({static_cast<std::uint32_t>(number) - grid.size(), i,
+                             s.area * std::exp(-2 * aside_sq / (h * h)), height});
+        }
+    }
+    return leans;
+}
+
+/// Linear interpolation between cells lies above a field that falls with x = decay times cell by (x / 2) coth(x / 2) in the
+/// mean.
+double above_field(double x) {
+    return x < 1e-3 ? 1 + x * x / 12 : 0.5 * x / std::tanh(0.5 * x);
+}
+
+}  // namespace
+
+std::array<double, 2> seen_fluence(const Sp3Medium& medium, double cell) {
+    const double ratio = above_field(medium.decay[0] * cell) / above_field(medium.decay[1] * cell);
+    return {medium.fluence[0], medium.fluence[1] * ratio};
+}
+
+SparseRows<LanePair> boundary_light(const Body& body, const VoxelGrid& grid, std::span<const BoundarySample> samples,
+                                    const LaneMedium& medium) {
+    const Groups by_cell(samples.size(), grid.size(), [&](std::uint32_t i) { return samples[i].cell; });
+    RowSums<LanePair> sums(vertices_of(body));
+    SparseRows<LanePair> rows;
+    for (std::uint32_t c = 0; c < grid.size(); ++c) {
+        for (const std::uint32_t i : by_cell.at(c)) {
+            const BoundarySample& s = samples[i];
+            LanePair part;
+            for (std::size_t k = 0; k < lane_count; ++k) {
+                const SurfaceLink link = surface_link(medium[k], static_cast<double>(s.height));
+                part.first[k] = static_cast<float>(link.right(0)) * s.area;
+                part.second[k] = static_cast<float>(link.right(1)) * s.area;
+            }
+            const std::array<float, 3> weights = weights_of(s);
+            for (int k = 0; k < 3; ++k)
+                sums.at(body.triangles()[s.triangle].corners[k]) += part * weights[static_cast<std::size_t>(k)];
+        }
+        sums.take([&](std::uint32_t vertex, const LanePair& value) { rows.add(vertex, value); });
+        rows.end_row();
+    }
+    rows.shrink();
+    return rows;
+}
+
+Ghosts make_ghosts(const Body& body, const VoxelGrid& grid, std::span<const BoundarySample> samples,
+                   const LaneMedium& medium) {
+    Ghosts result{grid.index(), {}, {}};
+    std::uint32_t count = 0;
+    const std::vector<Lean> leans = find_leans(body, grid, samples, result.index, count);
+    const Groups by_ghost(leans.size(), count, [&](std::uint32_t i) { return leans[i].ghost; });
+    RowSums<LanePair> of_modes(grid.size());
+    RowSums<Lanes> of_light(vertices_of(body));
+    for (std::uint32_t g = 0; g < count; ++g) {
+        float total = 0;
+        for (const std::uint32_t i : by_ghost.at(g)) total += leans[i].weight;
+        for (const std::uint32_t i : by_ghost.at(g)) {
+            const Lean& lean = leans[i];
+            const BoundarySample& s = samples[lean.sample];
+            const float weight = lean.weight / total;
+            LanePair modes;
+            Lanes light;
+            for (std::size_t k = 0; k < lane_count; ++k) {
+                const Sp3Medium& m = medium[k];
+                const SurfaceLink link = surface_link(m, static_cast<double>(s.height));
+                const std::array<double, 2> seen = seen_fluence(m, static_cast<double>(grid.cell()));
+                // psi over the surface, cosh(decay height) psi_surface - sinh(decay height) / decay F, is this of psi_i
+                // below it and that of F_i.
+                double of_flux[2];
+                double of_psi[2];
+                for (std::size_t n = 0; n < 2; ++n) {
+                    const double x = std::min(m.decay[n] * static_cast<double>(lean.height), max_rise);
+                    const double rise = x < 1e-6 ? static_cast<double>(lean.height) : std::sinh(x) / m.decay[n];
+                    of_psi[n] = seen[n] * std::cosh(x) * link.falloff[n];
+                    of_flux[n] = -seen[n] * (std::cosh(x) * link.depth[n] + rise);
+                }
+                modes.first[k] = static_cast<float>(of_psi[0] + of_flux[0] * link.flux[0][0] +
+                                                    of_flux[1] * link.flux[1][0]);
+                modes.second[k] = static_cast<float>(of_psi[1] + of_flux[0] * link.flux[0][1] +
+                                                     of_flux[1] * link.flux[1][1]);
+                light[k] =
+                    static_cast<float>(-of_flux[0] * link.source[0] - of_flux[1] * link.source[1]);
+            }
+            of_modes.at(s.cell) += modes * weight;
+            const std::array<float, 3> weights = weights_of(s);
+            for (int k = 0; k < 3; ++k) {
+                of_light.at(body.triangles()[s.triangle].corners[k]) +=
+                    light * (weight * weights[static_cast<std::size_t>(k)]);
+            }
+        }
+        of_modes.take([&](std::uint32_t cell, const LanePair& value) { result.of_modes.add(cell, value); });
+        of_light.take([&](std::uint32_t vertex, const Lanes& value) { result.of_light.add(vertex, value); });
+        result.of_modes.end_row();
+        result.of_light.end_row();
+    }
+    result.of_modes.shrink();
+    result.of_light.shrink();
+    return result;
+}
+
+}  // namespace skinglow::detail

@@ -1,0 +1,259 @@
+#include "shape/last_flight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <numbers>
+#include <optional>
+
+#include "numerics/parallel_blocks.h"
+#include "shape/random_numbers.h"
+#include "shape/surface_optics.h"
+
+namespace skinglow::detail {
+namespace {
+
+/// Rays end where all nodes have fallen to exp(-reach).
+constexpr float reach = 7;
+/// Steps along a ray, in cells.
+constexpr float step_cells = 0.6F;
+constexpr int max_bounces = 6;
+constexpr float least_weight = 1e-3F;
+constexpr std::size_t sites_per_block = 64;
+
+/// Right-handed frame about a unit axis (T. Duff et al., "Building an orthonormal basis, revisited", JCGT 6(1), 2017).
+glm::mat3 frame_about(const glm::vec3& axis) {
+    const float sign = std::copysign(1.0F, axis.z);
+    const float a = -1 / (sign + axis.z);
+    const float b = axis.x * axis.y * a;
+    return {{1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x}, {b, sign + axis.y * axis.y * a, -axis.y}, axis};
+}
+
+glm::vec3 cosine_direction(const glm::vec3& axis, float u, float v) {
+    const float radius = std::sqrt(u);
+    const float angle = 2 * std::numbers::pi_v<float> * v;
+    return frame_about(axis) * glm::vec3(radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1 - u));
+}
+
+/// Traces the rays of sites into rows.
+class FlightTracer {
+  public:
+    FlightTracer(const FleshSurface& surface, const VoxelGrid& grid, const Ghosts& ghosts,
+                 const LaneMedium& medium, const LastFlightOptions& options)
+        : surface_(surface),
+          body_(surface.body()),
+          grid_(grid),
+          ghosts_(ghosts),
+          options_(options),
+          fluence_(grid.size() + ghosts.of_modes.rows()),
+          light_(body_.welded_of().size()),
+          index_n_(medium[0].refractive_index),
+          inside_reflectance_(static_cast<float>(medium[0].inside_reflectance)),
+          transmittance_(static_cast<float>(medium[0].transmittance)),
+          extinction_(medium.lanes([](const Sp3Medium& m) { return m.extinction; })),
+          scattered_(medium.lanes([](const Sp3Medium& m) { return 0.25 * m.albedo; })),
+          max_length_(reach / static_cast<float>(medium.min_extinction())),
+          step_(step_cells * grid.cell()),
+          per_step_(decay(step_)),
+          max_extinction_(std::max({extinction_[0], extinction_[1], extinction_[2], extinction_[3]})),
+          center_(step_center(step_)),
+          bend_(medium.lanes([&](const Sp3Medium& m) {
+              const double x = m.decay[0] * static_cast<double>(grid.cell());
+              return x * x / 6;
+          })) {}
+
+    void trace(const SurfaceSites& all, std::uint32_t index, LastFlight& rows) {
+        const Site& site = all.sites()[index];
+        const auto pieces = all.pieces(site);
+        float area = 0;
+        for (const SitePiece& piece : pieces) area += body_.triangles()[piece.triangle].area;
+        const Lattice5 lattice(options_.rays, index);
+        for (int r = 0; r < options_.rays && site.on_surface; ++r) {
+            const auto x = lattice.at(r);
+            Ray ray = site.pieces == 0 ? from_point(site) : from_vertex(pieces, area, x);
+            ray.direction = cosine_direction(-ray.normal, x[3], x[4]);
+            follow(ray, 131 * static_cast<std::uint64_t>(index) + static_cast<std::uint64_t>(r));
+        }
+        store(index, rows);
+    }
+
+  private:
+    struct Ray {
+        glm::vec3 origin;
+        glm::vec3 normal;  ///< of the surface it starts from
+        glm::vec3 direction{0.0F};
+    };
+
+    Lanes decay(float length) const {
+        return each_lane([&](std::size_t k) { return std::exp(-extinction_[k] * length); });
+    }
+
+    Ray from_point(const Site& site) const {
+        const BodyTriangle& t = body_.triangles()[site.point.triangle];
+        return {site.position - t.normal * surface_.gap(), t.normal};
+    }
+
+    /// A point about a vertex, by its hat function.
+    Ray from_vertex(std::span<const SitePiece> pieces, float area, const std::array<float, 5>& x) const {
+        float pick = x[0] * area;
+        const SitePiece* piece = &pieces.front();
+        for (const SitePiece& each : pieces) {
+            piece = &each;
+            const float own = body_.triangles()[each.triangle].area;
+            if (pick < own) break;
+            pick -= own;
+        }
+        const BodyTriangle& t = body_.triangles()[piece->triangle];
+        // Nearness b to the corner has the density 6 b (1 - b).
+        const float b = 0.5F - std::sin(std::asin(1 - 2 * x[1]) / 3);
+        const int k = piece->corner;
+        const glm::vec3 point = body_.corner(t, k) * b + body_.corner(t, (k + 1) % 3) * ((1 - b) * x[2]) +
+                                body_.corner(t, (k + 2) % 3) * ((1 - b) * (1 - x[2]));
+        return {point - t.normal * surface_.gap(), t.normal};
+    }
+
+    void follow(Ray ray, std::uint64_t seed) {
+        Lanes weight = Lanes::all(1 - inside_reflectance_);
+        if (index_n_ > 1) weight = weight * (1 - fresnel(ray.direction, ray.normal));
+        for (int bounce = 0; bounce < max_bounces; ++bounce) {
+            const auto hit = surface_.nearest(ray.origin, ray.direction, 0.0F);
+            const float length = hit ? hit->distance : std::numeric_limits<float>::infinity();
+            collect(ray, std::min(length, max_length_), weight);
+            if (length > max_length_) return;
+            weight = weight * decay(length);
+            if (std::max({weight[0], weight[1], weight[2], weight[3]}) < least_weight * least_weight) return;
+            const BodyTriangle& t = body_.triangles()[hit->triangle];
+            const float reflected = index_n_ > 1 ? fresnel(ray.direction, t.normal) : inside_reflectance_;
+            const auto n_sq = static_cast<float>(index_n_ * index_n_);
+            const float entering = index_n_ > 1 ? n_sq * (1 - reflected) : transmittance_;
+            const std::array<float, 3> at = {1 - hit->u - hit->v, hit->u, hit->v};
+            for (int k = 0; k < 3; ++k)
+                light_.at(t.corners[k]) += weight * (entering * at[static_cast<std::size_t>(k)]);
+            weight = weight * reflected;
+            if (std::max({weight[0], weight[1], weight[2], weight[3]}) < least_weight) return;
+            const glm::vec3 inward = glm::dot(t.normal, ray.direction) < 0 ? t.normal : -t.normal;
+            const glm::vec3 start = ray.origin + ray.direction * length + inward * surface_.gap();
+            const std::uint64_t salt = seed * max_bounces * 2 + static_cast<std::uint64_t>(bounce) * 2;
+            const glm::vec3 next = index_n_ > 1
+                                       ? ray.direction - inward * (2 * glm::dot(ray.direction, inward))
+                                       : cosine_direction(inward, uniform_of(salt), uniform_of(salt + 1));
+            ray = {start, -inward, next};
+        }
+    }
+
+    float fresnel(const glm::vec3& direction, const glm::vec3& normal) const {
+        return static_cast<float>(
+            fresnel_reflectance(index_n_, 1.0, std::min(1.0F, std::abs(glm::dot(direction, normal)))));
+    }
+
+    /// Where in a step what comes out of it was scattered last, in the mean, for the node that falls fastest.
+    float step_center(float step) const {
+        const float x = max_extinction_ * step;
+        return x < 1e-2F ? 0.5F * step : step * (1 / x - 1 / std::expm1(x));
+    }
+
+    /// Linear interpolation between cells lies above a field that obeys laplace psi = decay^2 psi; by how much in
+    /// the mean over directions, for the mode that reaches far.
+    Lanes interpolation_factor(const glm::vec3& f) const {
+        Lanes above = Lanes::all(1);
+        for (int k = 0; k < 3; ++k) above = above * (Lanes::all(1) + bend_ * (f[k] * (1 - f[k])));
+        return each_lane([&](std::size_t k) { return 1 / above[k]; });
+    }
+
+    /// Shares what each step of a ray scatters out among the cells about its middle.
+    void collect(const Ray& ray, float length, Lanes weight) {
+        const float scale = 1 / grid_.cell();
+        const glm::vec3 start = (ray.origin - grid_.low()) * scale - 0.5F;
+        for (float done = 0; done < length; done += step_) {
+            const float step = std::min(step_, length - done);
+            const Lanes left = weight * (step < step_ ? decay(step) : per_step_);
+            const float center = step < step_ ? step_center(step) : center_;
+            const glm::vec3 at = start + ray.direction * ((done + center) * scale);
+            const glm::vec3 low = glm::floor(at);
+            const glm::vec3 f = at - low;
+            const glm::ivec3 place(low);
+            std::array<std::int32_t, 8> cell;
+            std::array<float, 8> part;
+            float sum = 0;
+            for (int c = 0; c < 8; ++c) {
+                const glm::ivec3 corner = place + glm::ivec3(c >> 2, (c >> 1) & 1, c & 1);
+                const auto i = static_cast<std::size_t>(c);
+                cell[i] = grid_.has(corner) ? ghosts_.index[grid_.linear(corner)] : VoxelGrid::unknown;
+                part[i] = cell[i] < 0 ? 0.0F
+                                      : ((c & 4) != 0 ? f.x : 1 - f.x) * ((c & 2) != 0 ? f.y : 1 - f.y) *
+                                            ((c & 1) != 0 ? f.z : 1 - f.z);
+                sum += part[i];
+            }
+            const Lanes deposit = (weight - left) * interpolation_factor(f);
+            weight = left;
+            if (sum < least_weight) continue;
+            for (std::size_t i = 0; i < 8; ++i) {
+                if (part[i] > 0) fluence_.at(static_cast<std::uint32_t>(cell[i])) += deposit * (part[i] / sum);
+            }
+        }
+    }
+
+    void store(std::uint32_t index, LastFlight& rows) {
+        const float per_ray = 1 / static_cast<float>(options_.rays);
+        fluence_.take([&](std::uint32_t column, const Lanes& value) {
+            const float largest = std::max({value[0], value[1], value[2], value[3]}) * per_ray;
+            const float kept = std::min(1.0F, largest / options_.small_entry);
+            const std::uint64_t salt = (static_cast<std::uint64_t>(index) << 32U) + column;
+            if (uniform_of(salt) < kept) rows.of_fluence.add(column, value * scattered_ * (per_ray / kept));
+        });
+        light_.take([&](std::uint32_t column, const Lanes& value) { rows.of_light.add(column, value * per_ray); });
+        rows.of_fluence.end_row();
+        rows.of_light.end_row();
+    }
+
+    const FleshSurface& surface_;
+    const Body& body_;
+    const VoxelGrid& grid_;
+    const Ghosts& ghosts_;
+    LastFlightOptions options_;
+    RowSums<Lanes> fluence_;
+    RowSums<Lanes> light_;
+    double index_n_;
+    float inside_reflectance_;
+    float transmittance_;
+    Lanes extinction_;
+    Lanes scattered_;
+    float max_length_;
+    float step_;
+    Lanes per_step_;
+    float max_extinction_;
+    float center_;
+    Lanes bend_;
+};
+
+}  // namespace
+
+LastFlight last_flight(const FleshSurface& surface, const VoxelGrid& grid, const Ghosts& ghosts,
+                       const LaneMedium& medium, const SurfaceSites& all, std::span<const std::uint32_t> sites,
+                       const LastFlightOptions& options) {
+    const std::size_t blocks = (sites.size() + sites_per_block - 1) / sites_per_block;
+    std::vector<LastFlight> rows(blocks);
+    // A few long runs of blocks, so that a tracer's tables are made seldom.
+    const std::size_t per_run = std::max<std::size_t>(1, blocks / 16);
+    const auto work = [&](std::size_t begin, std::size_t end) {
+        FlightTracer tracer(surface, grid, ghosts, medium, options);
+        for (std::size_t b = begin; b < end; ++b) {
+            const std::size_t last = std::min(sites.size(), (b + 1) * sites_per_block);
+            for (std::size_t i = b * sites_per_block; i < last; ++i) tracer.trace(all, sites[i], rows[b]);
+        }
+    };
+    for_each_block(blocks, options.threads, work, {}, per_run);
+    LastFlight result;
+    for (LastFlight& block : rows) {
+        result.of_fluence.append(block.of_fluence);
+        result.of_light.append(block.of_light);
+        block = {};
+    }
+    result.of_fluence.shrink();
+    result.of_light.shrink();
+    return result;
+}
+
+}  // namespace skinglow::detail

@@ -1,0 +1,215 @@
+#include <skinglow/shape.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <string>
+
+#include "numerics/argument_check.h"
+#include "shape/shape_data.h"
+
+namespace skinglow {
+namespace {
+
+constexpr int spectral_node_count = 4;
+/// Of the residual, in the preconditioner's norm.
+constexpr double tolerance = 1e-4;
+constexpr double min_cell_mm = 0.02;
+
+void validate(const MeshView& mesh, const ShapeOptions& options, const ShapePoints& points) {
+    if (mesh.triangles().empty()) refuse_argument("triangles", "empty", "at least one triangle");
+    require_positive("unit_mm", options.unit_mm);
+    if (!(options.cell_mm >= min_cell_mm && std::isfinite(options.cell_mm)))
+        refuse_argument("cell_mm", to_text(options.cell_mm), "a finite number, 0.02 or more");
+    require_positive("max_thickness_mm", options.max_thickness_mm);
+    if (options.threads < 0) refuse_argument("threads", std::to_string(options.threads), "0 (all) or more");
+    if (!points.normals.empty() && points.normals.size() != points.points.size()) {
+        refuse_argument("normals", std::to_string(points.normals.size()) + " of them",
+                        "one for each of " + std::to_string(points.points.size()) + " points, or none");
+    }
+    for (std::size_t i = 0; i < points.points.size(); ++i) require_finite(entry_name("points", i), points.points[i]);
+    for (std::size_t i = 0; i < points.normals.size(); ++i)
+        require_finite(entry_name("normals", i), points.normals[i]);
+}
+
+double coefficient(const char* name, int channel, double value) {
+    if (!(value >= 0 && value <= max_shape_coefficient))
+        refuse_argument(std::string(name) + "[" + std::to_string(channel) + "]", to_text(value), "0 to 1e5 per mm");
+    return value;
+}
+
+ShapeSurface finish_of(SurfaceFinish finish) {
+    return finish == SurfaceFinish::rough ? ShapeSurface::rough : ShapeSurface::smooth;
+}
+
+LaneMedium lanes_of(const ShapeMedium& medium, SurfaceFinish finish) {
+    if (!(medium.refractive_index >= 1 && medium.refractive_index <= max_shape_refractive_index))
+        refuse_argument("refractive_index", to_text(medium.refractive_index), "1 to 3");
+    std::vector<Sp3Medium> media;
+    for (int c = 0; c < 3; ++c) {
+        const double absorption = coefficient("absorption", c, medium.absorption[c]);
+        const double scattering = coefficient("reduced_scattering", c, medium.reduced_scattering[c]);
+        if (!(absorption + scattering >= 1e-6)) {
+            refuse_argument("absorption + reduced_scattering of channel " + std::to_string(c),
+                            to_text(absorption + scattering), "1e-6 per mm or more: clear glass is no flesh");
+        }
+        media.push_back(sp3_medium(absorption, scattering, medium.refractive_index, finish_of(finish)));
+    }
+    return LaneMedium(media);
+}
+
+LaneMedium lanes_of(const SpectralNodes& spectrum, SurfaceFinish finish) {
+    std::vector<Sp3Medium> media;
+    for (const SpectralNodes::Node& node : spectrum.nodes) {
+        media.push_back(sp3_medium(node.absorption, node.reduced_scattering, spectrum.refractive_index,
+                                   finish_of(finish)));
+    }
+    return LaneMedium(media);
+}
+
+std::function<void(double)> reporting(const ShapeProgress& progress) {
+    return [&progress](double done) {
+        if (progress && !progress(0.99 * done)) throw ShapeCancelled();
+    };
+}
+
+Lanes each_channel(const glm::dvec3& rgb) {
+    return {{static_cast<float>(rgb.r), static_cast<float>(rgb.g), static_cast<float>(rgb.b), 0}};
+}
+
+}  // namespace
+
+namespace detail {
+
+ShapeData::ShapeData(const MeshView& mesh, const LaneMedium& medium, std::optional<SpectralNodes> nodes,
+                     const ShapeOptions& given, const ShapePoints& where, const ShapeProgress& progress)
+    : options(given),
+      vertices(mesh.vertices().begin(), mesh.vertices().end()),
+      spectrum(std::move(nodes)),
+      solver(mesh, where.points, where.normals, medium,
+             {given.unit_mm, given.cell_mm, given.max_thickness_mm, given.threads}, reporting(progress)) {
+    const Body& body = solver.body();
+    if (where.points.empty()) {
+        points = vertices;
+    } else {
+        for (const Site& site : solver.sites().sites())
+            points.push_back(body.origin() + glm::dvec3(site.position) / given.unit_mm);
+    }
+    if (progress && !progress(1.0)) throw ShapeCancelled();
+}
+
+glm::dmat3 ShapeData::combine(const Lanes& exitance) const {
+    if (!spectrum) {
+        glm::dmat3 matrix(0.0);
+        for (int c = 0; c < 3; ++c) matrix[c][c] = static_cast<double>(exitance[static_cast<std::size_t>(c)]);
+        return matrix;
+    }
+    std::array<double, lane_count> nodes{};
+    for (std::size_t k = 0; k < spectrum->nodes.size(); ++k) {
+        const SpectralNodes::Node& node = spectrum->nodes[k];
+        nodes[k] = static_cast<double>(exitance[k]) * node.entry_factor * node.exit_factor;
+    }
+    return spectrum->combine(std::span(nodes).first(spectrum->nodes.size()));
+}
+
+}  // namespace detail
+
+std::string_view to_text(SurfaceFinish finish) {
+    return finish == SurfaceFinish::rough ? "rough" : "smooth";
+}
+
+SurfaceFinish surface_finish(std::string_view name) {
+    if (name == "rough") return SurfaceFinish::rough;
+    if (name == "smooth") return SurfaceFinish::smooth;
+    refuse_argument("surface", "\"" + std::string(name) + "\"", R"("rough" or "smooth")");
+}
+
+Shape::Shape(const MeshView& mesh, const ShapeMedium& medium, const ShapeOptions& options,
+             const ShapePoints& points, const ShapeProgress& progress) {
+    validate(mesh, options, points);
+    data_ = std::make_shared<const ShapeData>(mesh, lanes_of(medium, options.surface), std::nullopt, options,
+                                              points, progress);
+}
+
+Shape::Shape(const MeshView& mesh, const Tissue& tissue, const ShapeOptions& options, const ShapePoints& points,
+             const ShapeProgress& progress) {
+    validate(mesh, options, points);
+    SpectralNodes spectrum = spectral_nodes(tissue, spectral_node_count);
+    const LaneMedium medium = lanes_of(spectrum, options.surface);
+    data_ = std::make_shared<const ShapeData>(mesh, medium, std::move(spectrum), options, points, progress);
+}
+
+const std::vector<glm::dvec3>& Shape::points() const {
+    return data_->points;
+}
+
+const ShapeOptions& Shape::options() const {
+    return data_->options;
+}
+
+std::size_t Shape::vertices() const {
+    return data_->vertices.size();
+}
+
+std::size_t Shape::bytes() const {
+    return data_->solver.bytes();
+}
+
+std::vector<ShapePart> Shape::parts() const {
+    std::vector<std::vector<std::uint32_t>> points_of(data_->solver.sites().sites().size());
+    const auto& site_of = data_->solver.sites().site_of();
+    for (std::uint32_t i = 0; i < site_of.size(); ++i) points_of[site_of[i]].push_back(i);
+    std::vector<ShapePart> result;
+    for (const auto& lazy : data_->solver.parts()) {
+        ShapePart part{};
+        for (const std::uint32_t s : lazy->part().sites)
+            part.points.insert(part.points.end(), points_of[s].begin(), points_of[s].end());
+        std::sort(part.points.begin(), part.points.end());
+        for (const std::uint32_t i : part.points)
+            part.center += data_->points[i] / static_cast<double>(part.points.size());
+        if (const PartSolver* solver = lazy->ready()) {
+            part.is_ready = true;
+            part.cell_mm = solver->cell();
+            part.cells = solver->cells();
+            part.bytes = solver->bytes();
+            part.lost_area_fraction = solver->lost_fraction();
+        }
+        result.push_back(std::move(part));
+    }
+    return result;
+}
+
+std::vector<glm::dvec3> Shape::exitance(std::span<const glm::dvec3> irradiance) const {
+    if (irradiance.size() != vertices()) {
+        refuse_argument("irradiance", std::to_string(irradiance.size()) + " entries",
+                        "one for each of " + std::to_string(vertices()) + " vertices");
+    }
+    for (std::size_t i = 0; i < irradiance.size(); ++i) require_finite(entry_name("irradiance", i), irradiance[i]);
+    const auto& site_of = data_->solver.sites().site_of();
+    std::vector<glm::dvec3> result(site_of.size(), glm::dvec3(0.0));
+    std::vector<Lanes> light(irradiance.size());
+    if (!data_->spectrum) {
+        std::transform(irradiance.begin(), irradiance.end(), light.begin(), each_channel);
+        const std::vector<Lanes> exitance = data_->solver.exitance(light, tolerance);
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            const Lanes& e = exitance[site_of[i]];
+            result[i] = {e[0], e[1], e[2]};
+        }
+        return result;
+    }
+    // Light of each channel goes through the flesh by itself; gray light once.
+    const bool is_gray = std::all_of(irradiance.begin(), irradiance.end(),
+                                     [](const glm::dvec3& e) { return e.r == e.g && e.g == e.b; });
+    for (int c = 0; c < (is_gray ? 1 : 3); ++c) {
+        for (std::size_t i = 0; i < light.size(); ++i) light[i] = Lanes::all(static_cast<float>(irradiance[i][c]));
+        const std::vector<Lanes> exitance = data_->solver.exitance(light, tolerance);
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            const glm::dmat3 matrix = data_->combine(exitance[site_of[i]]);
+            result[i] += is_gray ? matrix * glm::dvec3(1.0) : matrix[c];
+        }
+    }
+    for (glm::dvec3& e : result) e = glm::max(e, glm::dvec3(0.0));
+    return result;
+}
+
+}  // namespace skinglow

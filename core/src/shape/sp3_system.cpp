@@ -1,0 +1,210 @@
+#include "shape/sp3_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skinglow::detail {
+namespace {
+
+constexpr int max_iterations = 2000;
+/// Cells summed in single precision before they are added in double.
+constexpr std::size_t sum_block = 256;
+/// Decay times cell below which a field counts as constant: keeps the system definite without absorption.
+constexpr double least_decay = 1e-5;
+
+using LaneSum = std::array<double, lane_count>;
+
+/// The flux between two cells per difference, of a field that falls with x = decay h: h x / sinh x.
+double flux_factor(double x, double h) {
+    return x < 1e-3 ? h * (1 - x * x / 6) : (x > 500 ? 0.0 : h * x / std::sinh(x));
+}
+
+/// What half a cell and a surface at a height over its center differ by, per area: decay (tanh(decay height) -
+/// tanh(decay h / 2)).
+double reaction_change(double decay, double height, double h) {
+    return decay * (std::tanh(decay * height) - std::tanh(0.5 * decay * h));
+}
+
+LaneSum dot(std::span<const LanePair> a, std::span<const LanePair> b) {
+    LaneSum total{};
+    for (std::size_t begin = 0; begin < a.size(); begin += sum_block) {
+        Lanes sum;
+        const std::size_t end = std::min(a.size(), begin + sum_block);
+        for (std::size_t i = begin; i < end; ++i) sum += a[i].first * b[i].first + a[i].second * b[i].second;
+        for (std::size_t k = 0; k < lane_count; ++k) total[k] += static_cast<double>(sum[k]);
+    }
+    return total;
+}
+
+}  // namespace
+
+Sp3System::Sp3System(const VoxelGrid& grid, std::span<const BoundarySample> samples, const LaneMedium& medium,
+                     double margin)
+    : class_of_(grid.size(), 0), neighbors_(grid.size()) {
+    const auto h = static_cast<double>(grid.cell());
+    struct Sums {
+        std::array<double, lane_count> d11{}, d12{}, d22{};  // of the block
+        std::array<double, lane_count> r1{}, r2{};           // change of the reaction at the surface
+    };
+    std::array<double, lane_count> flux[2];
+    for (std::size_t k = 0; k < lane_count; ++k) {
+        for (int i = 0; i < 2; ++i) flux[i][k] = flux_factor(medium[k].decay[i] * h, h);
+    }
+    flux1_ = each_lane([&](std::size_t k) { return static_cast<float>(flux[0][k]); });
+    flux2_ = each_lane([&](std::size_t k) { return static_cast<float>(flux[1][k]); });
+    const auto inner = [&](int neighbors, int cuts) {
+        Sums sums;
+        for (std::size_t k = 0; k < lane_count; ++k) {
+            for (int i = 0; i < 2; ++i) {
+                const double m = std::max(medium[k].decay[i], least_decay / h);
+                const double half = std::tanh(0.5 * m * h);
+                // Behind a cut the field falls as in endless flesh, or as 1 / r at the margin's end.
+                const double behind = std::max(m, 1 / margin);
+                (i == 0 ? sums.d11 : sums.d22)[k] =
+                    2 * h * h * m * half + neighbors * flux[i][k] + cuts * h * h * behind * (1 - half);
+            }
+        }
+        return sums;
+    };
+    std::vector<Sums> sums{inner(6, 0)};
+    std::vector<std::uint8_t> is_special(grid.size(), 0);
+    for (const BoundarySample& s : samples) is_special[s.cell] = 1;
+    for (std::uint32_t c = 0; c < grid.size(); ++c) {
+        neighbors_[c] = grid.neighbors(c).cell;
+        const auto count = std::count_if(neighbors_[c].begin(), neighbors_[c].end(),
+                                         [&](std::uint32_t n) { return n < grid.size(); });
+        if (is_special[c] == 0 && count == 6) continue;
+        class_of_[c] = static_cast<std::uint32_t>(sums.size());
+        sums.push_back(inner(static_cast<int>(count), grid.neighbors(c).cuts));
+    }
+    for (const BoundarySample& s : samples) {
+        Sums& sum = sums[class_of_[s.cell]];
+        const auto area = static_cast<double>(s.area);
+        const auto height = static_cast<double>(s.height);
+        for (std::size_t k = 0; k < lane_count; ++k) {
+            const SurfaceLink link = surface_link(medium[k], height);
+            sum.d11[k] += area * link.block(0);
+            sum.d12[k] += area * link.block(1);
+            sum.d22[k] += area * link.block(2);
+            sum.r1[k] += area * reaction_change(medium[k].decay[0], height, h);
+            sum.r2[k] += area * reaction_change(medium[k].decay[1], height, h);
+        }
+    }
+    // Where surfaces on all sides belong to one cell, little of it is flesh; some is.
+    constexpr double least_flesh = 0.1;
+    for (Sums& s : sums) {
+        for (std::size_t k = 0; k < lane_count; ++k) {
+            const auto limited = [&](int i, double change) {
+                const double m = std::max(medium[k].decay[i], least_decay / h);
+                const double full = 2 * h * h * m * std::tanh(0.5 * m * h);
+                return std::max(change, (least_flesh - 1) * full);
+            };
+            s.d11[k] += limited(0, s.r1[k]);
+            s.d22[k] += limited(1, s.r2[k]);
+        }
+    }
+    blocks_.reserve(sums.size());
+    for (const Sums& s : sums) {
+        Block block;
+        for (std::size_t k = 0; k < lane_count; ++k) {
+            const double scale = 1 / (s.d11[k] * s.d22[k] - s.d12[k] * s.d12[k]);
+            block.d11[k] = static_cast<float>(s.d11[k]);
+            block.d12[k] = static_cast<float>(s.d12[k]);
+            block.d22[k] = static_cast<float>(s.d22[k]);
+            block.i11[k] = static_cast<float>(s.d22[k] * scale);
+            block.i12[k] = static_cast<float>(-s.d12[k] * scale);
+            block.i22[k] = static_cast<float>(s.d11[k] * scale);
+        }
+        blocks_.push_back(block);
+    }
+}
+
+void Sp3System::apply(std::span<const LanePair> x, std::span<LanePair> result) const {
+    for (std::size_t c = 0; c < class_of_.size(); ++c) {
+        LanePair around;
+        for (const std::uint32_t n : neighbors_[c]) around += x[n];
+        const Block& b = blocks_[class_of_[c]];
+        result[c].first = b.d11 * x[c].first + b.d12 * x[c].second - flux1_ * around.first;
+        result[c].second = b.d12 * x[c].first + b.d22 * x[c].second - flux2_ * around.second;
+    }
+}
+
+void Sp3System::precondition(std::span<const LanePair> residual, std::span<LanePair> result) const {
+    const std::size_t count = class_of_.size();
+    for (std::size_t c = 0; c < count; ++c) {
+        const auto& n = neighbors_[c];
+        // Those before this cell; n may be the cell of zeros at the end.
+        LanePair around = result[n[0]];
+        around += result[n[2]];
+        around += result[n[4]];
+        const Lanes u = residual[c].first + flux1_ * around.first;
+        const Lanes w = residual[c].second + flux2_ * around.second;
+        const Block& b = blocks_[class_of_[c]];
+        result[c] = {b.i11 * u + b.i12 * w, b.i12 * u + b.i22 * w};
+    }
+    for (std::size_t c = count; c-- > 0;) {
+        const auto& n = neighbors_[c];
+        LanePair around = result[n[1]];
+        around += result[n[3]];
+        around += result[n[5]];
+        const Lanes u = flux1_ * around.first;
+        const Lanes w = flux2_ * around.second;
+        const Block& b = blocks_[class_of_[c]];
+        result[c] += {b.i11 * u + b.i12 * w, b.i12 * u + b.i22 * w};
+    }
+}
+
+int Sp3System::solve(std::span<const LanePair> right, std::span<LanePair> modes, double tolerance) const {
+    const std::size_t count = class_of_.size();
+    const auto cells = [&](std::vector<LanePair>& v) { return std::span(v).first(count); };
+    std::vector<LanePair> residual(count);
+    std::vector<LanePair> z(count + 1);
+    std::vector<LanePair> direction(count + 1);
+    std::vector<LanePair> product(count);
+    precondition(right, z);
+    const LaneSum start = dot(right, cells(z));
+    apply(modes, product);
+    for (std::size_t c = 0; c < count; ++c) {
+        residual[c] = {right[c].first - product[c].first, right[c].second - product[c].second};
+    }
+    precondition(residual, z);
+    std::copy(z.begin(), z.end() - 1, direction.begin());
+    LaneSum rz = dot(residual, cells(z));
+    int iteration = 0;
+    for (; iteration < max_iterations; ++iteration) {
+        Lanes is_open;
+        bool any = false;
+        for (std::size_t k = 0; k < lane_count; ++k) {
+            const bool open = rz[k] > tolerance * tolerance * start[k];
+            is_open[k] = open ? 1.0F : 0.0F;
+            any = any || open;
+        }
+        if (!any) break;
+        apply(direction, product);
+        const LaneSum curvature = dot(cells(direction), product);
+        const Lanes step = each_lane([&](std::size_t k) {
+            return is_open[k] > 0 && curvature[k] > 0 ? static_cast<float>(rz[k] / curvature[k]) : 0.0F;
+        });
+        for (std::size_t c = 0; c < count; ++c) {
+            modes[c].first += step * direction[c].first;
+            modes[c].second += step * direction[c].second;
+            residual[c].first = residual[c].first - step * product[c].first;
+            residual[c].second = residual[c].second - step * product[c].second;
+        }
+        precondition(residual, z);
+        const LaneSum next = dot(residual, cells(z));
+        const Lanes keep = each_lane([&](std::size_t k) {
+            return is_open[k] > 0 && rz[k] > 0 ? static_cast<float>(next[k] / rz[k]) : 0.0F;
+        });
+        for (std::size_t c = 0; c < count; ++c) {
+            direction[c].first = z[c].first + keep * direction[c].first;
+            direction[c].second = z[c].second + keep * direction[c].second;
+        }
+        for (std::size_t k = 0; k < lane_count; ++k) {
+            if (is_open[k] > 0) rz[k] = next[k];
+        }
+    }
+    return iteration;
+}
+
+}  // namespace skinglow::detail

@@ -1,0 +1,88 @@
+#include "shape/surface_sites.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <map>
+
+namespace skinglow::detail {
+namespace {
+
+/// Cosine of the angle up to which triangles at a vertex are one smooth surface: between a corner of a box and anything
+/// that is modeled as round.
+constexpr float smooth = 0.5F;
+
+glm::vec3 unit_or_zero(const glm::vec3& v) {
+    const float l = glm::length(v);
+    return l > 0 ? v / l : glm::vec3(0.0F);
+}
+
+int corner_at(const BodyTriangle& t, std::uint32_t welded) {
+    return t.welded.x == welded ? 0 : (t.welded.y == welded ? 1 : 2);
+}
+
+/// Normal of some triangles, each counting by its area.
+glm::vec3 normal_of(const Body& body, std::span<const std::uint32_t> triangles) {
+    glm::vec3 sum(0.0F);
+    for (const std::uint32_t i : triangles) sum += body.triangles()[i].normal * body.triangles()[i].area;
+    return unit_or_zero(sum);
+}
+
+}  // namespace
+
+SurfaceSites::SurfaceSites(const Body& body) : are_vertices_(true) {
+    const std::vector<std::uint32_t>& welded_of = body.welded_of();
+    site_of_.resize(welded_of.size());
+    // The triangles of each vertex given; of one that has none (a repeated triangle's, a stray one), all at its
+    // position.
+    std::map<std::pair<std::uint32_t, std::vector<std::uint32_t>>, std::uint32_t> known;
+    for (std::uint32_t v = 0; v < welded_of.size(); ++v) {
+        const std::uint32_t welded = welded_of[v];
+        const auto around = body.triangles_at(welded);
+        std::vector<std::uint32_t> own;
+        for (const std::uint32_t i : around) {
+            const glm::uvec3& c = body.triangles()[i].corners;
+            if (c.x == v || c.y == v || c.z == v) own.push_back(i);
+        }
+        std::vector<std::uint32_t> taken(around.begin(), around.end());
+        if (!own.empty() && own.size() < around.size()) {
+            const glm::vec3 normal = normal_of(body, own);
+            std::erase_if(taken, [&](std::uint32_t i) {
+                return !std::binary_search(own.begin(), own.end(), i) &&
+                       glm::dot(body.triangles()[i].normal, normal) < smooth;
+            });
+        }
+        const auto [entry, is_new] =
+            known.try_emplace({welded, taken}, static_cast<std::uint32_t>(sites_.size()));
+        site_of_[v] = entry->second;
+        if (!is_new) continue;
+        Site site{body.positions()[welded], normal_of(body, taken)};
+        site.first_piece = static_cast<std::uint32_t>(pieces_.size());
+        site.pieces = static_cast<std::uint32_t>(taken.size());
+        site.on_surface = !taken.empty();
+        for (const std::uint32_t i : taken)
+            pieces_.push_back({i, static_cast<std::uint8_t>(corner_at(body.triangles()[i], welded))});
+        sites_.push_back(site);
+    }
+}
+
+SurfaceSites::SurfaceSites(const Body& body, const TriangleTree& tree, std::span<const glm::vec3> points,
+                           std::span<const glm::vec3> normals)
+    : are_vertices_(false) {
+    sites_.reserve(points.size());
+    site_of_.resize(points.size());
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        const glm::vec3 facing = normals.empty() ? glm::vec3(0.0F) : normals[i];
+        Site site{points[i], facing};
+        if (const auto found = tree.nearest(points[i], facing)) {
+            const BodyTriangle& t = body.triangles()[found->triangle];
+            site.position = body.at(t, found->u, found->v);
+            site.normal = t.normal;
+            site.point = *found;
+            site.on_surface = true;
+        }
+        site_of_[i] = i;
+        sites_.push_back(site);
+    }
+}
+
+}  // namespace skinglow::detail

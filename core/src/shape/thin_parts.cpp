@@ -1,0 +1,121 @@
+#include "shape/thin_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+#include <unordered_map>
+
+#include "geometry/vector.h"
+#include "geometry/weld.h"
+#include "numerics/parallel_blocks.h"
+#include "rays/direction_sampling.h"
+
+namespace skinglow::detail {
+namespace {
+
+constexpr int thickness_rays = 9;
+constexpr double cone_half_angle = 25 * std::numbers::pi / 180;
+
+/// Sites by cubes of space.
+class Blocks {
+  public:
+    Blocks(double edge, const glm::vec3& low) : edge_(edge), low_(low) {}
+
+    glm::dvec3 key(const glm::vec3& p) const { return glm::floor(glm::dvec3(p - low_) / edge_); }
+
+    void add(const glm::vec3& p, std::uint32_t item) { of_[key(p)].push_back(item); }
+
+    std::vector<std::uint32_t>* find(const glm::dvec3& key) {
+        const auto found = of_.find(key);
+        return found == of_.end() ? nullptr : &found->second;
+    }
+
+  private:
+    struct Hash {
+        std::size_t operator()(const glm::dvec3& v) const { return hash_of(v); }
+    };
+    double edge_;
+    glm::vec3 low_;
+    std::unordered_map<glm::dvec3, std::vector<std::uint32_t>, Hash> of_;
+};
+
+template <typename Visit>
+void visit_neighborhood(Blocks& blocks, const glm::dvec3& key, const Visit& visit) {
+    for (int n = 0; n < 27; ++n) {
+        const glm::dvec3 next = key + glm::dvec3(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
+        if (auto* items = blocks.find(next)) visit(next, *items);
+    }
+}
+
+}  // namespace
+
+std::vector<float> site_thickness(const FleshSurface& surface, const SurfaceSites& sites, int threads,
+                                  const SitesDone& done) {
+    const auto directions = cone_directions(thickness_rays, cone_half_angle);
+    std::vector<float> thickness(sites.sites().size(), std::numeric_limits<float>::infinity());
+    const auto work = [&](std::size_t begin, std::size_t end) {
+        std::array<float, thickness_rays> lengths;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Site& site = sites.sites()[i];
+            if (!site.on_surface || site.normal == glm::vec3(0.0F)) continue;
+            const glm::dmat3 frame = frame_around(-glm::normalize(glm::dvec3(site.normal)));
+            const glm::vec3 origin = site.position - site.normal * surface.gap();
+            for (std::size_t r = 0; r < lengths.size(); ++r) {
+                const auto hit = surface.nearest(origin, frame * directions[r], 0.0F);
+                lengths[r] = hit ? hit->distance : std::numeric_limits<float>::infinity();
+            }
+            std::nth_element(lengths.begin(), lengths.begin() + thickness_rays / 2, lengths.end());
+            thickness[i] = lengths[thickness_rays / 2];
+        }
+    };
+    for_each_block(thickness.size(), threads, work, done, 512);
+    return thickness;
+}
+
+std::vector<ThinPart> thin_parts(const Body& body, const SurfaceSites& sites, const std::vector<float>& thickness,
+                                 double max_thickness, double margin) {
+    glm::vec3 low(0.0F);
+    for (const glm::vec3& p : body.positions()) low = glm::min(low, p);
+    Blocks thin(margin, low);
+    Blocks vertices(margin, low);
+    const auto is_thin = [&](std::size_t i) { return static_cast<double>(thickness[i]) < max_thickness; };
+    for (std::uint32_t i = 0; i < thickness.size(); ++i) {
+        if (is_thin(i)) thin.add(sites.sites()[i].position, i);
+    }
+    for (std::uint32_t v = 0; v < body.welded_of().size(); ++v)
+        vertices.add(body.positions()[body.welded_of()[v]], v);
+    std::vector<std::uint8_t> seen(thickness.size(), 0);
+    std::vector<ThinPart> parts;
+    for (std::uint32_t first = 0; first < thickness.size(); ++first) {
+        if (seen[first] != 0 || !is_thin(first)) continue;
+        ThinPart part;
+        std::vector<glm::dvec3> open{thin.key(sites.sites()[first].position)};
+        const auto take = [&](std::vector<std::uint32_t>& items) {
+            for (const std::uint32_t i : items) seen[i] = 1;
+            part.sites.insert(part.sites.end(), items.begin(), items.end());
+        };
+        take(*thin.find(open.front()));
+        for (std::size_t next = 0; next < open.size(); ++next) {
+            const glm::dvec3 key = open[next];
+            visit_neighborhood(thin, key, [&](const glm::dvec3& other, std::vector<std::uint32_t>& items) {
+                if (seen[items.front()] != 0) return;
+                take(items);
+                open.push_back(other);
+            });
+            visit_neighborhood(vertices, key, [&](const glm::dvec3&, std::vector<std::uint32_t>& items) {
+                part.vertices.insert(part.vertices.end(), items.begin(), items.end());
+            });
+        }
+        std::sort(part.sites.begin(), part.sites.end());
+        std::sort(part.vertices.begin(), part.vertices.end());
+        part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()), part.vertices.end());
+        parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
+}  // namespace skinglow::detail

@@ -1,0 +1,183 @@
+#include "shape/triangle_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <numbers>
+
+namespace skinglow::detail {
+namespace {
+
+constexpr std::uint32_t leaf_size = 1;
+/// A node is far from a point beyond this many of its radii.
+constexpr float far_in_radii = 2.0F;
+
+/// atan2 to 1e-4 radians, which is enough to tell inside from outside: a minimax polynomial on an eighth of a turn.
+float quick_angle(float y, float x) {
+    const float ax = std::abs(x);
+    const float ay = std::abs(y);
+    const float high = std::max(ax, ay);
+    if (high == 0) return 0;
+    const float r = std::min(ax, ay) / high;
+    const float s = r * r;
+    float angle = ((-0.0464964749F * s + 0.15931422F) * s - 0.327622764F) * s * r + r;
+    if (ay > ax) angle = 0.5F * std::numbers::pi_v<float> - angle;
+    if (x < 0) angle = std::numbers::pi_v<float> - angle;
+    return std::copysign(angle, y);
+}
+
+/// Half the solid angle of a triangle, positive seen from its inner side (A. van Oosterom and J. Strackee, "The solid angle
+/// of a plane triangle", IEEE Trans. Biomed. Eng. 30(2), 1983).
+float half_solid_angle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    const float la = glm::length(a);
+    const float lb = glm::length(b);
+    const float lc = glm::length(c);
+    const float above = glm::dot(a, glm::cross(b, c));
+    const float below = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+    return quick_angle(above, below);
+}
+
+/// Nearest point of a triangle, barycentric (C. Ericson, "Real-Time Collision Detection", 2005, 5.1.5).
+glm::vec2 nearest_of_triangle(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    const glm::vec3 ab = b - a;
+    const glm::vec3 ac = c - a;
+    const float d1 = glm::dot(ab, p - a);
+    const float d2 = glm::dot(ac, p - a);
+    if (d1 <= 0 && d2 <= 0) return {0, 0};
+    const float d3 = glm::dot(ab, p - b);
+    const float d4 = glm::dot(ac, p - b);
+    if (d3 >= 0 && d4 <= d3) return {1, 0};
+    const float vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) return {d1 / (d1 - d3), 0};
+    const float d5 = glm::dot(ab, p - c);
+    const float d6 = glm::dot(ac, p - c);
+    if (d6 >= 0 && d5 <= d6) return {0, 1};
+    const float vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) return {0, d2 / (d2 - d6)};
+    const float va = d3 * d6 - d5 * d4;
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+        const float w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        return {1 - w, w};
+    }
+    const float scale = 1 / (va + vb + vc);
+    return {vb * scale, vc * scale};
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(const Body& body) : body_(body) {
+    const auto& triangles = body.triangles();
+    order_.resize(triangles.size());
+    centers_.resize(triangles.size());
+    for (std::uint32_t i = 0; i < order_.size(); ++i) {
+        order_[i] = i;
+        const BodyTriangle& t = triangles[i];
+        centers_[i] = (body.corner(t, 0) + body.corner(t, 1) + body.corner(t, 2)) / 3.0F;
+    }
+    if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()));
+    centers_ = {};
+    corners_.reserve(order_.size());
+    for (const std::uint32_t i : order_)
+        corners_.push_back({body.corner(triangles[i], 0), body.corner(triangles[i], 1), body.corner(triangles[i], 2)});
+}
+
+void TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
+    const auto& triangles = body_.triangles();
+    const std::size_t index = nodes_.size();
+    nodes_.emplace_back();
+    glm::dvec3 center(0.0);
+    glm::dvec3 dipole(0.0);
+    double area = 0;
+    glm::vec3 low(std::numeric_limits<float>::max());
+    glm::vec3 high(-std::numeric_limits<float>::max());
+    for (std::uint32_t i = begin; i < end; ++i) {
+        const BodyTriangle& t = triangles[order_[i]];
+        const auto weight = static_cast<double>(t.area);
+        center += weight * glm::dvec3(centers_[order_[i]]);
+        dipole += weight * glm::dvec3(t.normal);
+        area += weight;
+        low = glm::min(low, centers_[order_[i]]);
+        high = glm::max(high, centers_[order_[i]]);
+    }
+    Node node{};
+    node.center = center / area;
+    node.dipole = dipole / (4 * std::numbers::pi);
+    node.begin = begin;
+    node.end = end;
+    node.is_leaf = end - begin <= leaf_size;
+    for (std::uint32_t i = begin; i < end; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const float away = glm::length(body_.corner(triangles[order_[i]], k) - node.center);
+            node.radius = std::max(node.radius, away);
+        }
+    }
+    if (!node.is_leaf) {
+        const glm::vec3 extent = high - low;
+        const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
+        const std::uint32_t middle = begin + (end - begin) / 2;
+        std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+                         [&](std::uint32_t a, std::uint32_t b) {
+                             return centers_[a][axis] != centers_[b][axis] ? centers_[a][axis] < centers_[b][axis]
+                                                                           : a < b;
+                         });
+        build(begin, middle);
+        build(middle, end);
+    }
+    node.far_sq = far_in_radii * far_in_radii * node.radius * node.radius;
+    node.skip = static_cast<std::uint32_t>(nodes_.size());
+    nodes_[index] = node;
+}
+
+double TriangleTree::winding(const glm::vec3& point) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < nodes_.size();) {
+        const Node& node = nodes_[i];
+        const glm::vec3 to = node.center - point;
+        const float distance_sq = glm::dot(to, to);
+        if (distance_sq > node.far_sq) {
+            sum += static_cast<double>(glm::dot(node.dipole, to) / (distance_sq * std::sqrt(distance_sq)));
+            i = node.skip;
+            continue;
+        }
+        if (node.is_leaf) {
+            float angle = 0;
+            for (std::uint32_t k = node.begin; k < node.end; ++k) {
+                const std::array<glm::vec3, 3>& t = corners_[k];
+                angle += half_solid_angle(t[0] - point, t[1] - point, t[2] - point);
+            }
+            sum += static_cast<double>(angle) / (2 * std::numbers::pi);
+        }
+        ++i;
+    }
+    return sum;
+}
+
+std::optional<SurfacePoint> TriangleTree::nearest(const glm::vec3& point, const glm::vec3& facing) const {
+    std::optional<SurfacePoint> best;
+    float best_distance = std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < nodes_.size();) {
+        const Node& node = nodes_[i];
+        if (glm::length(node.center - point) - node.radius >= best_distance) {
+            i = node.skip;
+            continue;
+        }
+        if (node.is_leaf) {
+            for (std::uint32_t k = node.begin; k < node.end; ++k) {
+                const BodyTriangle& t = body_.triangles()[order_[k]];
+                if (facing != glm::vec3(0.0F) && glm::dot(facing, t.normal) <= 0) continue;
+                const glm::vec2 uv =
+                    nearest_of_triangle(point, body_.corner(t, 0), body_.corner(t, 1), body_.corner(t, 2));
+                const float distance = glm::length(body_.at(t, uv.x, uv.y) - point);
+                if (distance >= best_distance) continue;
+                best_distance = distance;
+                best = SurfacePoint{order_[k], uv.x, uv.y};
+            }
+        }
+        ++i;
+    }
+    return best;
+}
+
+}  // namespace skinglow::detail

@@ -1,0 +1,117 @@
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <skinglow/shape.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bind_rays.h"
+#include "mesh_arrays.h"
+#include "numerics/argument_check.h"
+#include "numpy_conversion.h"
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace skinglow {
+namespace {
+
+/// Asks Python whether to go on; called without the interpreter's lock.
+ShapeProgress ask_python(const py::object& progress) {
+    return [&progress](double done) {
+        const py::gil_scoped_acquire lock;
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        if (progress.is_none()) return true;
+        const int go_on = PyObject_IsTrue(progress(done).ptr());
+        if (go_on < 0) throw py::error_already_set();
+        return go_on != 0;
+    };
+}
+
+/// Three numbers, or one for all three channels.
+glm::dvec3 to_channels(py::handle value, const char* name) {
+    const numpy::Array array = numpy::to_array(value, name);
+    if (array.ndim() == 0) return glm::dvec3(*array.data());
+    return numpy::to_vec3(value, name);
+}
+
+/// The medium: coefficients, or the tissue, or the skin that a Tissue is by default.
+Shape make_shape(py::handle vertices, py::handle triangles, const std::optional<Tissue>& tissue,
+                 py::handle absorption, py::handle reduced_scattering, double refractive_index,
+                 const std::string& surface, double unit_mm, double cell_mm, double max_thickness_mm,
+                 py::handle points, py::handle normals, int threads, const py::object& progress) {
+    const TriangleMesh mesh = numpy::to_mesh(vertices, triangles);
+    const ShapeOptions options{unit_mm, cell_mm, max_thickness_mm, surface_finish(surface), threads};
+    std::vector<glm::dvec3> places;
+    std::vector<glm::dvec3> facing;
+    if (!points.is_none()) places = numpy::to_vec3s(points, "points");
+    if (!normals.is_none()) facing = numpy::to_vec3s(normals, "normals");
+    if (points.is_none() && !facing.empty())
+        refuse_argument("normals", "given without points", "normals only with points");
+    const ShapePoints where{places, facing};
+    const bool has_medium = !absorption.is_none() || !reduced_scattering.is_none();
+    if (!has_medium) {
+        const Tissue skin = tissue.value_or(Tissue{});
+        return numpy::without_gil([&] { return Shape(mesh, skin, options, where, ask_python(progress)); });
+    }
+    if (tissue) refuse_argument("tissue", "given with coefficients", "a tissue or coefficients, not both");
+    if (absorption.is_none() || reduced_scattering.is_none()) {
+        refuse_argument(absorption.is_none() ? "absorption" : "reduced_scattering", "not given",
+                        "three numbers each, 1/mm: absorption and reduced_scattering go together");
+    }
+    const ShapeMedium medium{to_channels(absorption, "absorption"),
+                             to_channels(reduced_scattering, "reduced_scattering"), refractive_index};
+    return numpy::without_gil([&] { return Shape(mesh, medium, options, where, ask_python(progress)); });
+}
+
+/// (v, 3), or (v,): the same for all channels.
+std::vector<glm::dvec3> to_irradiance(py::handle value) {
+    const numpy::Array array = numpy::to_array(value, "irradiance");
+    if (array.ndim() != 1) return numpy::to_vec3s(value, "irradiance");
+    const double* data = array.data();
+    std::vector<glm::dvec3> result(static_cast<std::size_t>(array.shape(0)));
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = glm::dvec3(data[i]);
+    return result;
+}
+
+py::array exitance_of_array(const Shape& self, py::handle irradiance) {
+    const std::vector<glm::dvec3> given = to_irradiance(irradiance);
+    return numpy::from_vec3s(numpy::without_gil([&] { return self.exitance(given); }));
+}
+
+py::dict part_of(const ShapePart& part) {
+    py::array_t<std::int64_t> points(static_cast<py::ssize_t>(part.points.size()));
+    std::copy(part.points.begin(), part.points.end(), points.mutable_data());
+    return py::dict("center"_a = numpy::from_vec3(part.center), "points"_a = points, "is_ready"_a = part.is_ready,
+                    "cell_mm"_a = part.cell_mm, "cells"_a = part.cells, "bytes"_a = part.bytes,
+                    "lost_area_fraction"_a = part.lost_area_fraction);
+}
+
+}  // namespace
+
+void bind_shape(py::module_& m) {
+    py::register_local_exception<ShapeCancelled>(m, "ShapeCancelled", PyExc_RuntimeError);
+    py::class_<Shape>(m, "Shape", "See skinglow.Shape.")
+        .def(py::init(&make_shape), "vertices"_a, "triangles"_a, "tissue"_a, "absorption"_a,
+             "reduced_scattering"_a, "refractive_index"_a, "surface"_a, "unit_mm"_a, "cell_mm"_a,
+             "max_thickness_mm"_a, "points"_a, "normals"_a, "threads"_a, "progress"_a)
+        .def_property_readonly("points",
+                               [](const Shape& self) {
+                                   std::vector<glm::dvec3> mm = self.points();
+                                   for (glm::dvec3& p : mm) p *= self.options().unit_mm;
+                                   return numpy::from_vec3s(std::move(mm));
+                               })
+        .def_property_readonly("bytes", &Shape::bytes)
+        .def("parts",
+             [](const Shape& self) {
+                 py::list list;
+                 for (const ShapePart& part : self.parts()) list.append(part_of(part));
+                 return list;
+             })
+        .def("exitance", &exitance_of_array, "irradiance"_a, "See skinglow.Shape.exitance.");
+}
+
+}  // namespace skinglow
