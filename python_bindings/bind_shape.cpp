@@ -85,9 +85,9 @@ py::array exitance_of_array(const Shape& self, py::handle irradiance) {
 py::dict part_of(const ShapePart& part) {
     py::array_t<std::int64_t> points(static_cast<py::ssize_t>(part.points.size()));
     std::copy(part.points.begin(), part.points.end(), points.mutable_data());
-    return py::dict("center"_a = numpy::from_vec3(part.center), "points"_a = points, "is_ready"_a = part.is_ready,
-                    "cell_mm"_a = part.cell_mm, "cells"_a = part.cells, "bytes"_a = part.bytes,
-                    "lost_area_fraction"_a = part.lost_area_fraction);
+    return py::dict("center"_a = numpy::from_vec3(part.center), "points"_a = points,
+                    "is_ready"_a = part.is_ready, "cell_mm"_a = part.cell_mm, "cells"_a = part.cells,
+                    "bytes"_a = part.bytes, "lost_area_fraction"_a = part.lost_area_fraction);
 }
 
 }  // namespace

@@ -9,15 +9,15 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
-#include <string_view>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
-/// Light through the real shape of a body: solved in the flesh itself, where a table over thickness takes each place for
-/// a plate. Method, assumptions and measured errors: docs/shape.md. Lengths mm, coefficients 1/mm, linear Rec.709.
-/// @code
-/// const skinglow::Shape ear(mesh, skinglow::tissue_preset("light").tissue);
-/// const std::vector<glm::dvec3> exitance = ear.exitance(irradiance_of_each_vertex);
+/// Light through the real shape of a body: solved in the flesh itself, where a table over thickness takes
+/// each place for a plate. Method, assumptions and measured errors: docs/shape.md. Lengths mm, coefficients
+/// 1/mm, linear Rec.709.
+/// @code const skinglow::Shape ear(mesh, skinglow::tissue_preset("light").tissue); const
+///        std::vector<glm::dvec3> exitance = ear.exitance(irradiance_of_each_vertex);
 /// @endcode
 namespace skinglow {
 
@@ -38,9 +38,10 @@ SurfaceFinish surface_finish(std::string_view name);
 
 /// A homogeneous medium, for three channels that do not mix. Scattering is isotropic.
 struct ShapeMedium {
-    glm::dvec3 absorption{0.0};          ///< 1/mm, 0 to max_shape_coefficient
-    glm::dvec3 reduced_scattering{0.0};  ///< 1/mm, 0 to max_shape_coefficient; a channel must absorb or scatter
-    double refractive_index = 1.4;       ///< 1 to 3; outside is air
+    glm::dvec3 absorption{0.0};  ///< 1/mm, 0 to max_shape_coefficient
+    glm::dvec3 reduced_scattering{
+        0.0};                       ///< 1/mm, 0 to max_shape_coefficient; a channel must absorb or scatter
+    double refractive_index = 1.4;  ///< 1 to 3; outside is air
 };
 constexpr double max_shape_coefficient = 1e5;
 constexpr double max_shape_refractive_index = 3;
@@ -48,7 +49,8 @@ constexpr double max_shape_refractive_index = 3;
 struct ShapeOptions {
     double unit_mm = 1.0;  ///< length of one unit of the vertices, mm; finite, above 0
     double cell_mm = 0.8;  ///< edge of the cells that light is solved on, mm; 0.5 is final quality
-    /// Where the flesh is thicker, mm, no light is taken to come through: it has the exitance of a half-space.
+    /// Where the flesh is thicker, mm, no light is taken to come through: it has the exitance of a
+    /// half-space.
     double max_thickness_mm = 25.0;
     SurfaceFinish surface = SurfaceFinish::rough;
     int threads = 0;  ///< 0: one for each processor. The result does not depend on it.
@@ -56,7 +58,7 @@ struct ShapeOptions {
 
 /// Places on a surface; each counts for the nearest point of the triangles that face along its normal.
 struct ShapePoints {
-    std::span<const glm::dvec3> points;  ///< units of the mesh, finite; empty: the vertices of the mesh
+    std::span<const glm::dvec3> points;        ///< units of the mesh, finite; empty: the vertices of the mesh
     std::span<const glm::dvec3> normals = {};  ///< one each, finite, 0: any; empty: all 0
 };
 
@@ -71,10 +73,10 @@ class ShapeCancelled : public std::runtime_error {
 
 /// A thin part of a body, which is solved by itself.
 struct ShapePart {
-    glm::dvec3 center;          ///< mean of its points, units of the mesh
+    glm::dvec3 center;                  ///< mean of its points, units of the mesh
     std::vector<std::uint32_t> points;  ///< indices of the points in it, ascending
-    bool is_ready = false;      ///< made ready, by the first light that fell on it
-    double cell_mm = 0;         ///< what follows is 0 before
+    bool is_ready = false;              ///< made ready, by the first light that fell on it
+    double cell_mm = 0;                 ///< what follows is 0 before
     std::size_t cells = 0;
     std::size_t bytes = 0;
     double lost_area_fraction = 0;  ///< of its surface, where the flesh is too thin for a cell
@@ -85,13 +87,13 @@ class Shape {
   public:
     /// Finds the thin parts. Each is made ready (tenths of a second to seconds) when light first falls on it.
     ///
-    /// Flesh is where the triangles wind about a point more than half a time, so that open, doubled, overlapping
-    /// and partly flipped meshes have an inside; triangles inside flesh do nothing. A mesh that encloses nothing is
-    /// a half-space everywhere.
+    /// Flesh is where the triangles wind about a point more than half a time, so that open, doubled,
+    /// overlapping and partly flipped meshes have an inside; triangles inside flesh do nothing. A mesh that
+    /// encloses nothing is a half-space everywhere.
     /// @param mesh      in units of options.unit_mm; at least one triangle
     /// @param progress  may be empty; called on this thread
     /// @throws std::invalid_argument naming what is not allowed, std::runtime_error where Embree cannot work,
-    ///         ShapeCancelled, and what `progress` throws
+    ///        ShapeCancelled, and what `progress` throws
     Shape(const MeshView& mesh, const ShapeMedium& medium, const ShapeOptions& options = {},
           const ShapePoints& points = {}, const ShapeProgress& progress = {});
     /// The same for skin, whose spectrum is solved at a few nodes.
@@ -108,8 +110,8 @@ class Shape {
     /// Memory of what is prepared.
     std::size_t bytes() const;
 
-    /// What leaves the flesh at each point, W/m^2, without light that enters skin again: at a vertex the mean about
-    /// it, weighted by the hat function of its triangles.
+    /// What leaves the flesh at each point, W/m^2, without light that enters skin again: at a vertex the mean
+    /// about it, weighted by the hat function of its triangles.
     /// @param irradiance  at each vertex of the mesh, W/m^2, finite; taken as linear on triangles, diffuse
     /// @return one per point, 0 or more. Throws std::invalid_argument naming the entry
     std::vector<glm::dvec3> exitance(std::span<const glm::dvec3> irradiance) const;

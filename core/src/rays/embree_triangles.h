@@ -46,7 +46,8 @@ class EmbreeTriangles {
 
     /// The nearest hit of a ray from a distance on, on either side of a triangle; none where it meets nothing.
     /// @param direction  unit length
-    std::optional<TriangleHit> nearest(const glm::dvec3& origin, const glm::dvec3& direction, float from) const;
+    std::optional<TriangleHit> nearest(const glm::dvec3& origin, const glm::dvec3& direction,
+                                       float from) const;
 
     /// Whether a triangle lies between two distances along a ray.
     /// @param direction  unit length

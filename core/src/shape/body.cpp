@@ -15,8 +15,8 @@
 namespace skinglow::detail {
 namespace {
 
-/// The corners with the least first, in the order of the winding; and whether the winding is that of the sorted
-/// corners, which tells a triangle from its mirror image.
+/// The corners with the least first, in the order of the winding; and whether the winding is that of the
+/// sorted corners, which tells a triangle from its mirror image.
 struct TriangleKey {
     glm::uvec3 sorted;
     bool is_even;

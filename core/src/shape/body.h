@@ -19,10 +19,10 @@ struct BodyTriangle {
     float area;          ///< mm^2
 };
 
-/// A mesh as the surface of flesh, in mm about the center of its box. Vertices at one position are one vertex, repeated
-/// triangles count once, a triangle and its mirror image cancel, triangles without area are left out. Faces whose
-/// winding is against their neighbors' are turned, where edges say so, to the winding of the larger area of the
-/// connected piece; a mesh that encloses a negative volume is turned as a whole.
+/// A mesh as the surface of flesh, in mm about the center of its box. Vertices at one position are one
+/// vertex, repeated triangles count once, a triangle and its mirror image cancel, triangles without area are
+/// left out. Faces whose winding is against their neighbors' are turned, where edges say so, to the winding
+/// of the larger area of the connected piece; a mesh that encloses a negative volume is turned as a whole.
 class Body {
   public:
     /// @param unit_mm  length of one unit of the mesh, mm, above 0

@@ -73,8 +73,8 @@ std::vector<Lean> find_leans(const Body& body, const VoxelGrid& grid, std::span<
     return leans;
 }
 
-/// Linear interpolation between cells lies above a field that falls with x = decay times cell by (x / 2) coth(x / 2) in the
-/// mean.
+/// Linear interpolation between cells lies above a field that falls with x = decay times cell by (x / 2)
+/// coth(x / 2) in the mean.
 double above_field(double x) {
     return x < 1e-3 ? 1 + x * x / 12 : 0.5 * x / std::tanh(0.5 * x);
 }
@@ -86,8 +86,8 @@ std::array<double, 2> seen_fluence(const Sp3Medium& medium, double cell) {
     return {medium.fluence[0], medium.fluence[1] * ratio};
 }
 
-SparseRows<LanePair> boundary_light(const Body& body, const VoxelGrid& grid, std::span<const BoundarySample> samples,
-                                    const LaneMedium& medium) {
+SparseRows<LanePair> boundary_light(const Body& body, const VoxelGrid& grid,
+                                    std::span<const BoundarySample> samples, const LaneMedium& medium) {
     const Groups by_cell(samples.size(), grid.size(), [&](std::uint32_t i) { return samples[i].cell; });
     RowSums<LanePair> sums(vertices_of(body));
     SparseRows<LanePair> rows;
@@ -102,7 +102,8 @@ SparseRows<LanePair> boundary_light(const Body& body, const VoxelGrid& grid, std
             }
             const std::array<float, 3> weights = weights_of(s);
             for (int k = 0; k < 3; ++k)
-                sums.at(body.triangles()[s.triangle].corners[k]) += part * weights[static_cast<std::size_t>(k)];
+                sums.at(body.triangles()[s.triangle].corners[k]) +=
+                    part * weights[static_cast<std::size_t>(k)];
         }
         sums.take([&](std::uint32_t vertex, const LanePair& value) { rows.add(vertex, value); });
         rows.end_row();
@@ -132,13 +133,14 @@ Ghosts make_ghosts(const Body& body, const VoxelGrid& grid, std::span<const Boun
                 const Sp3Medium& m = medium[k];
                 const SurfaceLink link = surface_link(m, static_cast<double>(s.height));
                 const std::array<double, 2> seen = seen_fluence(m, static_cast<double>(grid.cell()));
-                // psi over the surface, cosh(decay height) psi_surface - sinh(decay height) / decay F, is this of psi_i
-                // below it and that of F_i.
+                // psi over the surface, cosh(decay height) psi_surface - sinh(decay height) / decay F, is
+                // this of psi_i below it and that of F_i.
                 double of_flux[2];
                 double of_psi[2];
                 for (std::size_t n = 0; n < 2; ++n) {
                     const double x = std::min(m.decay[n] * static_cast<double>(lean.height), max_rise);
-                    const double rise = x < 1e-6 ? static_cast<double>(lean.height) : std::sinh(x) / m.decay[n];
+                    const double rise =
+                        x < 1e-6 ? static_cast<double>(lean.height) : std::sinh(x) / m.decay[n];
                     of_psi[n] = seen[n] * std::cosh(x) * link.falloff[n];
                     of_flux[n] = -seen[n] * (std::cosh(x) * link.depth[n] + rise);
                 }
@@ -146,8 +148,7 @@ Ghosts make_ghosts(const Body& body, const VoxelGrid& grid, std::span<const Boun
                                                     of_flux[1] * link.flux[1][0]);
                 modes.second[k] = static_cast<float>(of_psi[1] + of_flux[0] * link.flux[0][1] +
                                                      of_flux[1] * link.flux[1][1]);
-                light[k] =
-                    static_cast<float>(-of_flux[0] * link.source[0] - of_flux[1] * link.source[1]);
+                light[k] = static_cast<float>(-of_flux[0] * link.source[0] - of_flux[1] * link.source[1]);
             }
             of_modes.at(s.cell) += modes * weight;
             const std::array<float, 3> weights = weights_of(s);

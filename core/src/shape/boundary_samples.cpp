@@ -63,7 +63,8 @@ BoundarySamples boundary_samples(const FleshSurface& surface, const VoxelGrid& g
                     const glm::vec3 point = body.at(t, sample.u, sample.v);
                     if (grid.at(grid.place_of(point)) == VoxelGrid::unknown) continue;
                     if (surface.is_wall(f, sample.u, sample.v)) continue;
-                    if (!assign(grid, point, t.normal, sample)) result.lost_area += static_cast<double>(sample.area);
+                    if (!assign(grid, point, t.normal, sample))
+                        result.lost_area += static_cast<double>(sample.area);
                     if (sample.cell == VoxelGrid::no_cell) continue;
                     result.area += static_cast<double>(sample.area);
                     result.samples.push_back(sample);

@@ -23,9 +23,9 @@ struct BoundarySamples {
     double area = 0;       ///< of all samples, mm^2
 };
 
-/// Triangles split to half a cell. Each piece goes to the cell nearest to half a cell below it, among those that it is not
-/// clearly behind; walls inside flesh have none. Areas are those of the mesh, so that the light that comes in does not
-/// know of the cells' stairs.
+/// Triangles split to half a cell. Each piece goes to the cell nearest to half a cell below it, among those
+/// that it is not clearly behind; walls inside flesh have none. Areas are those of the mesh, so that the
+/// light that comes in does not know of the cells' stairs.
 BoundarySamples boundary_samples(const FleshSurface& surface, const VoxelGrid& grid);
 
 }  // namespace skinglow::detail

@@ -40,13 +40,15 @@ std::vector<Neighbors> neighbors_of(std::span<const BodyTriangle> triangles) {
     std::vector<Neighbors> result(triangles.size());
     for (std::size_t i = 0; i < sides.size();) {
         std::size_t end = i + 1;
-        while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high) ++end;
+        while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high)
+            ++end;
         if (end == i + 2) {  // an edge of three or more triangles binds none of them
             const Side& a = sides[i];
             const Side& b = sides[i + 1];
             result[a.triangle].triangle[a.corner] = b.triangle;
             result[b.triangle].triangle[b.corner] = a.triangle;
-            result[a.triangle].opposed[a.corner] = result[b.triangle].opposed[b.corner] = a.ascends == b.ascends;
+            result[a.triangle].opposed[a.corner] = result[b.triangle].opposed[b.corner] =
+                a.ascends == b.ascends;
         }
         i = end;
     }

@@ -8,8 +8,8 @@
 
 namespace skinglow::detail {
 
-/// Triangles whose winding is against that of the piece they belong to. Pieces hang together by edges that two triangles
-/// share; in each the winding of the larger area is right.
+/// Triangles whose winding is against that of the piece they belong to. Pieces hang together by edges that
+/// two triangles share; in each the winding of the larger area is right.
 /// @return one per triangle
 std::vector<bool> against_neighbors(std::span<const BodyTriangle> triangles);
 

@@ -13,8 +13,8 @@ namespace {
 
 constexpr int edge = 3;  ///< of a block, in cells
 constexpr int block_cells = edge * edge * edge;
-/// Length of a triangle's parts, and how far from their middle cells count as touched, in cells: what a line between two
-/// neighboring centers crosses is found in one of their cells.
+/// Length of a triangle's parts, and how far from their middle cells count as touched, in cells: what a line
+/// between two neighboring centers crosses is found in one of their cells.
 constexpr float part_cells = 0.3F;
 constexpr float touch_cells = 0.25F;
 /// A winding number this far from 1/2 is that of all cells it stands for.
@@ -41,7 +41,8 @@ std::vector<std::uint8_t> touched_places(const Body& body, const VoxelGrid& grid
         const auto scale = static_cast<float>(parts);
         for (int i = 0; i <= parts; ++i) {
             for (int j = 0; i + j <= parts; ++j)
-                touch(grid, body.at(t, static_cast<float>(i) / scale, static_cast<float>(j) / scale), touched);
+                touch(grid, body.at(t, static_cast<float>(i) / scale, static_cast<float>(j) / scale),
+                      touched);
         }
     }
     return touched;
@@ -153,7 +154,8 @@ std::vector<std::uint8_t> find_flesh(const FleshSurface& surface, const VoxelGri
         BlockAsker asker(surface, grid, wanted, touched, flesh);
         for (std::size_t b = begin; b < end; ++b) {
             for (int z = 0; z < blocks.z; ++z)
-                asker.ask(glm::ivec3(static_cast<int>(b) / blocks.y, static_cast<int>(b) % blocks.y, z) * edge);
+                asker.ask(glm::ivec3(static_cast<int>(b) / blocks.y, static_cast<int>(b) % blocks.y, z) *
+                          edge);
         }
     };
     for_each_block(count, threads, work, {}, 8);

@@ -9,9 +9,10 @@
 
 namespace skinglow::detail {
 
-/// The surface of the flesh, for rays: a body's triangles without the walls that lie inside flesh. A wall is inside where
-/// the surface winds about the point just outside it as well (the inner of two shells, an eyeball pushed into a
-/// head): it carries no light, and rays pass it. May be asked from many threads at once.
+/// The surface of the flesh, for rays: a body's triangles without the walls that lie inside flesh. A wall is
+/// inside where the surface winds about the point just outside it as well (the inner of two shells, an
+/// eyeball pushed into a head): it carries no light, and rays pass it. May be asked from many threads at
+/// once.
 class FleshSurface {
   public:
     /// @param cell_mm  walls are told apart on a scale of about this length

@@ -23,18 +23,22 @@ constexpr int max_bounces = 6;
 constexpr float least_weight = 1e-3F;
 constexpr std::size_t sites_per_block = 64;
 
-/// Right-handed frame about a unit axis (T. Duff et al., "Building an orthonormal basis, revisited", JCGT 6(1), 2017).
+/// Right-handed frame about a unit axis (T. Duff et al., "Building an orthonormal basis, revisited", JCGT
+/// 6(1), 2017).
 glm::mat3 frame_about(const glm::vec3& axis) {
     const float sign = std::copysign(1.0F, axis.z);
     const float a = -1 / (sign + axis.z);
     const float b = axis.x * axis.y * a;
-    return {{1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x}, {b, sign + axis.y * axis.y * a, -axis.y}, axis};
+    return {{1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x},
+            {b, sign + axis.y * axis.y * a, -axis.y},
+            axis};
 }
 
 glm::vec3 cosine_direction(const glm::vec3& axis, float u, float v) {
     const float radius = std::sqrt(u);
     const float angle = 2 * std::numbers::pi_v<float> * v;
-    return frame_about(axis) * glm::vec3(radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1 - u));
+    return frame_about(axis) *
+           glm::vec3(radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1 - u));
 }
 
 /// Traces the rays of sites into rows.
@@ -154,8 +158,8 @@ class FlightTracer {
         return x < 1e-2F ? 0.5F * step : step * (1 / x - 1 / std::expm1(x));
     }
 
-    /// Linear interpolation between cells lies above a field that obeys laplace psi = decay^2 psi; by how much in
-    /// the mean over directions, for the mode that reaches far.
+    /// Linear interpolation between cells lies above a field that obeys laplace psi = decay^2 psi; by how
+    /// much in the mean over directions, for the mode that reaches far.
     Lanes interpolation_factor(const glm::vec3& f) const {
         Lanes above = Lanes::all(1);
         for (int k = 0; k < 3; ++k) above = above * (Lanes::all(1) + bend_ * (f[k] * (1 - f[k])));
@@ -190,7 +194,8 @@ class FlightTracer {
             weight = left;
             if (sum < least_weight) continue;
             for (std::size_t i = 0; i < 8; ++i) {
-                if (part[i] > 0) fluence_.at(static_cast<std::uint32_t>(cell[i])) += deposit * (part[i] / sum);
+                if (part[i] > 0)
+                    fluence_.at(static_cast<std::uint32_t>(cell[i])) += deposit * (part[i] / sum);
             }
         }
     }
@@ -203,7 +208,8 @@ class FlightTracer {
             const std::uint64_t salt = (static_cast<std::uint64_t>(index) << 32U) + column;
             if (uniform_of(salt) < kept) rows.of_fluence.add(column, value * scattered_ * (per_ray / kept));
         });
-        light_.take([&](std::uint32_t column, const Lanes& value) { rows.of_light.add(column, value * per_ray); });
+        light_.take(
+            [&](std::uint32_t column, const Lanes& value) { rows.of_light.add(column, value * per_ray); });
         rows.of_fluence.end_row();
         rows.of_light.end_row();
     }
@@ -231,8 +237,8 @@ class FlightTracer {
 }  // namespace
 
 LastFlight last_flight(const FleshSurface& surface, const VoxelGrid& grid, const Ghosts& ghosts,
-                       const LaneMedium& medium, const SurfaceSites& all, std::span<const std::uint32_t> sites,
-                       const LastFlightOptions& options) {
+                       const LaneMedium& medium, const SurfaceSites& all,
+                       std::span<const std::uint32_t> sites, const LastFlightOptions& options) {
     const std::size_t blocks = (sites.size() + sites_per_block - 1) / sites_per_block;
     std::vector<LastFlight> rows(blocks);
     // A few long runs of blocks, so that a tracer's tables are made seldom.

@@ -17,18 +17,21 @@ std::vector<glm::vec3> positions_of(const SurfaceSites& all, std::span<const std
 
 }  // namespace
 
-PartSolver::PartSolver(const FleshSurface& surface, const SurfaceSites& all, std::span<const std::uint32_t> sites,
-                       const LaneMedium& medium, const PartOptions& options)
-    : PartSolver(surface, all, sites, medium, options,
-                 VoxelGrid(surface, positions_of(all, sites), options.margin, options.cell, options.threads)) {}
+PartSolver::PartSolver(const FleshSurface& surface, const SurfaceSites& all,
+                       std::span<const std::uint32_t> sites, const LaneMedium& medium,
+                       const PartOptions& options)
+    : PartSolver(
+          surface, all, sites, medium, options,
+          VoxelGrid(surface, positions_of(all, sites), options.margin, options.cell, options.threads)) {}
 
-PartSolver::PartSolver(const FleshSurface& surface, const SurfaceSites& all, std::span<const std::uint32_t> sites,
-                       const LaneMedium& medium, const PartOptions& options, VoxelGrid grid)
+PartSolver::PartSolver(const FleshSurface& surface, const SurfaceSites& all,
+                       std::span<const std::uint32_t> sites, const LaneMedium& medium,
+                       const PartOptions& options, VoxelGrid grid)
     : PartSolver(surface, all, sites, medium, options, grid, boundary_samples(surface, grid)) {}
 
-PartSolver::PartSolver(const FleshSurface& surface, const SurfaceSites& all, std::span<const std::uint32_t> sites,
-                       const LaneMedium& medium, const PartOptions& options, VoxelGrid grid,
-                       const BoundarySamples& samples)
+PartSolver::PartSolver(const FleshSurface& surface, const SurfaceSites& all,
+                       std::span<const std::uint32_t> sites, const LaneMedium& medium,
+                       const PartOptions& options, VoxelGrid grid, const BoundarySamples& samples)
     : grid_(std::move(grid)),
       system_(grid_, samples.samples, medium, options.margin),
       right_(boundary_light(surface.body(), grid_, samples.samples, medium)),

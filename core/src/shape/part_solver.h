@@ -9,8 +9,8 @@
 namespace skinglow::detail {
 
 struct PartOptions {
-    double cell = 0.8;    ///< mm
-    double margin = 7;    ///< of flesh about the sites, mm
+    double cell = 0.8;  ///< mm
+    double margin = 7;  ///< of flesh about the sites, mm
     int threads = 0;
     LastFlightOptions flight = {};
 };
@@ -22,8 +22,8 @@ struct PartField {
     int iterations = 0;
 };
 
-/// A part of the flesh, made ready: from the irradiance at the vertices to the exitance of its sites. May be asked from
-/// many threads at once.
+/// A part of the flesh, made ready: from the irradiance at the vertices to the exitance of its sites. May be
+/// asked from many threads at once.
 class PartSolver {
   public:
     /// @param sites  indices into `all`, ascending; at least one
@@ -34,7 +34,8 @@ class PartSolver {
     PartField solve(std::span<const Lanes> light, double tolerance) const;
 
     /// Exitance of the sites, in their order; 0 or more.
-    void exitance(const PartField& field, std::span<const Lanes> light, std::span<Lanes> out, int threads) const;
+    void exitance(const PartField& field, std::span<const Lanes> light, std::span<Lanes> out,
+                  int threads) const;
 
     std::uint32_t cells() const { return grid_.size(); }
     double cell() const { return static_cast<double>(grid_.cell()); }

@@ -10,8 +10,8 @@
 
 namespace skinglow::detail {
 
-/// Well-mixed bits of a number: the finalizer of SplitMix64 (G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom
-/// number generators", OOPSLA 2014).
+/// Well-mixed bits of a number: the finalizer of SplitMix64 (G. Steele, D. Lea, C. Flood, "Fast splittable
+/// pseudorandom number generators", OOPSLA 2014).
 inline std::uint64_t mixed_bits(std::uint64_t x) {
     x += 0x9E3779B97F4A7C15ULL;
     x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9ULL;
@@ -24,8 +24,8 @@ inline float uniform_of(std::uint64_t x) {
     return static_cast<float>(mixed_bits(x) >> 40U) * 0x1p-24F;
 }
 
-/// Points of the unit cube of five dimensions: an even first coordinate, and a rank-1 sequence of four (M. Roberts, "The
-/// unreasonable effectiveness of quasirandom sequences", 2018), shifted as a whole by the seed.
+/// Points of the unit cube of five dimensions: an even first coordinate, and a rank-1 sequence of four (M.
+/// Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018), shifted as a whole by the seed.
 class Lattice5 {
   public:
     Lattice5(int count, std::uint64_t seed) : count_(count) {

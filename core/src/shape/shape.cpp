@@ -27,14 +27,16 @@ void validate(const MeshView& mesh, const ShapeOptions& options, const ShapePoin
         refuse_argument("normals", std::to_string(points.normals.size()) + " of them",
                         "one for each of " + std::to_string(points.points.size()) + " points, or none");
     }
-    for (std::size_t i = 0; i < points.points.size(); ++i) require_finite(entry_name("points", i), points.points[i]);
+    for (std::size_t i = 0; i < points.points.size(); ++i)
+        require_finite(entry_name("points", i), points.points[i]);
     for (std::size_t i = 0; i < points.normals.size(); ++i)
         require_finite(entry_name("normals", i), points.normals[i]);
 }
 
 double coefficient(const char* name, int channel, double value) {
     if (!(value >= 0 && value <= max_shape_coefficient))
-        refuse_argument(std::string(name) + "[" + std::to_string(channel) + "]", to_text(value), "0 to 1e5 per mm");
+        refuse_argument(std::string(name) + "[" + std::to_string(channel) + "]", to_text(value),
+                        "0 to 1e5 per mm");
     return value;
 }
 
@@ -131,8 +133,8 @@ Shape::Shape(const MeshView& mesh, const ShapeMedium& medium, const ShapeOptions
                                               points, progress);
 }
 
-Shape::Shape(const MeshView& mesh, const Tissue& tissue, const ShapeOptions& options, const ShapePoints& points,
-             const ShapeProgress& progress) {
+Shape::Shape(const MeshView& mesh, const Tissue& tissue, const ShapeOptions& options,
+             const ShapePoints& points, const ShapeProgress& progress) {
     validate(mesh, options, points);
     SpectralNodes spectrum = spectral_nodes(tissue, spectral_node_count);
     const LaneMedium medium = lanes_of(spectrum, options.surface);
@@ -184,7 +186,8 @@ std::vector<glm::dvec3> Shape::exitance(std::span<const glm::dvec3> irradiance) 
         refuse_argument("irradiance", std::to_string(irradiance.size()) + " entries",
                         "one for each of " + std::to_string(vertices()) + " vertices");
     }
-    for (std::size_t i = 0; i < irradiance.size(); ++i) require_finite(entry_name("irradiance", i), irradiance[i]);
+    for (std::size_t i = 0; i < irradiance.size(); ++i)
+        require_finite(entry_name("irradiance", i), irradiance[i]);
     const auto& site_of = data_->solver.sites().site_of();
     std::vector<glm::dvec3> result(site_of.size(), glm::dvec3(0.0));
     std::vector<Lanes> light(irradiance.size());
@@ -201,7 +204,8 @@ std::vector<glm::dvec3> Shape::exitance(std::span<const glm::dvec3> irradiance) 
     const bool is_gray = std::all_of(irradiance.begin(), irradiance.end(),
                                      [](const glm::dvec3& e) { return e.r == e.g && e.g == e.b; });
     for (int c = 0; c < (is_gray ? 1 : 3); ++c) {
-        for (std::size_t i = 0; i < light.size(); ++i) light[i] = Lanes::all(static_cast<float>(irradiance[i][c]));
+        for (std::size_t i = 0; i < light.size(); ++i)
+            light[i] = Lanes::all(static_cast<float>(irradiance[i][c]));
         const std::vector<Lanes> exitance = data_->solver.exitance(light, tolerance);
         for (std::size_t i = 0; i < result.size(); ++i) {
             const glm::dmat3 matrix = data_->combine(exitance[site_of[i]]);

@@ -46,15 +46,16 @@ class LazyPart {
     mutable std::unique_ptr<const PartSolver> solver_;
 };
 
-/// The flesh of a mesh of one medium: from irradiance at its vertices to exitance at its sites, node by node. May be asked
-/// from many threads at once.
+/// The flesh of a mesh of one medium: from irradiance at its vertices to exitance at its sites, node by node.
+/// May be asked from many threads at once.
 class ShapeSolver {
   public:
     /// @param points   places whose exitance is asked, units of the mesh; none: its vertices
     /// @param normals  one each; none: of the nearest triangle
     /// @param done     told the fraction done, in [0, 1]
     ShapeSolver(const MeshView& mesh, std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals,
-                const LaneMedium& medium, const SolverOptions& options, const std::function<void(double)>& done);
+                const LaneMedium& medium, const SolverOptions& options,
+                const std::function<void(double)>& done);
     ShapeSolver(const ShapeSolver&) = delete;
     ShapeSolver& operator=(const ShapeSolver&) = delete;
 

@@ -47,9 +47,9 @@ double half_range(const Function& f, double critical) {
     return integrate<64>(f, 0.0, critical) + integrate<64>(f, critical, 1.0);
 }
 
-/// Marshak's conditions: the odd half-range moments, 1 and 3, of the radiance that goes inward are those of what is
-/// reflected and what comes in. The radiance, integrated over azimuth, is even + odd with the even part from
-/// the fluence and the second moment, the odd part from the two fluxes.
+/// Marshak's conditions: the odd half-range moments, 1 and 3, of the radiance that goes inward are those of
+/// what is reflected and what comes in. The radiance, integrated over azimuth, is even + odd with the even
+/// part from the fluence and the second moment, the odd part from the two fluxes.
 Boundary boundary_of(double n, ShapeSurface surface) {
     const DiffuseReflectance diffuse = diffuse_reflectance(n);
     const bool rough = surface == ShapeSurface::rough;
@@ -76,7 +76,9 @@ Boundary boundary_of(double n, ShapeSurface surface) {
             const double back_even = 2 * diffuse_inside * even_flux;
             const double back_odd = 2 * diffuse_inside * odd_flux;
             a[row][column] = half_range(
-                [&](double x) { return moment[row](x) * ((1 - reflectance(x)) * even[column](x) - back_even); },
+                [&](double x) {
+                    return moment[row](x) * ((1 - reflectance(x)) * even[column](x) - back_even);
+                },
                 critical);
             o[row][column] = half_range(
                 [&](double x) { return moment[row](x) * ((1 + reflectance(x)) * odd[column](x) + back_odd); },
@@ -117,11 +119,12 @@ double half_space_exitance(const Sp3Medium& medium) {
 
 }  // namespace
 
-Sp3Medium sp3_medium(double absorption, double reduced_scattering, double refractive_index, ShapeSurface surface) {
+Sp3Medium sp3_medium(double absorption, double reduced_scattering, double refractive_index,
+                     ShapeSurface surface) {
     const double st = absorption + reduced_scattering;
     const Boundary boundary = boundary_of(refractive_index, surface);
-    // Reaction over diffusion, D^-1/2 C D^-1/2, and its eigenvectors as a rotation. The smaller eigenvalue by the
-    // determinant, which does not cancel where the absorption is small.
+    // Reaction over diffusion, D^-1/2 C D^-1/2, and its eigenvectors as a rotation. The smaller eigenvalue by
+    // the determinant, which does not cancel where the absorption is small.
     const double c11 = 3 * st * absorption;
     const double c12 = -std::sqrt(21.0) * st * (2.0 / 3) * absorption;
     const double c22 = 7 * st * (4.0 / 9 * absorption + 5.0 / 9 * st);
@@ -162,11 +165,11 @@ SurfaceLink surface_link(const Sp3Medium& medium, double depth) {
         link.depth[i] = x < 1e-6 ? depth : std::tanh(x) * depth / x;
     }
     const auto& b = medium.boundary;
-    const Matrix2 through =
-        Matrix2{1 + b[0] * link.depth[0], b[1] * link.depth[1], b[1] * link.depth[0], 1 + b[2] * link.depth[1]}
-            .inverse();
-    const Matrix2 flux = through * Matrix2{b[0] * link.falloff[0], b[1] * link.falloff[1], b[1] * link.falloff[0],
-                                           b[2] * link.falloff[1]};
+    const Matrix2 through = Matrix2{1 + b[0] * link.depth[0], b[1] * link.depth[1], b[1] * link.depth[0],
+                                    1 + b[2] * link.depth[1]}
+                                .inverse();
+    const Matrix2 flux = through * Matrix2{b[0] * link.falloff[0], b[1] * link.falloff[1],
+                                           b[1] * link.falloff[0], b[2] * link.falloff[1]};
     const std::array<double, 2> source = through * std::array{medium.source[0], medium.source[1]};
     link.flux[0][0] = flux.a11;
     link.flux[0][1] = flux.a12;

@@ -10,44 +10,46 @@ namespace skinglow::detail {
 /// What the surface of a body does to light that crosses it.
 enum class ShapeSurface { rough, smooth };
 
-/// A medium at one spectral node, as two modes of SP3 (A. D. Klose and E. W. Larsen, "Light transport in biological
-/// tissue based on the simplified spherical harmonics equations", J. Comput. Phys. 220, 2006). With
-/// st = reduced scattering + absorption, D1 = 1 / (3 st), D2 = 1 / (7 st) the two unknowns of SP3 obey
-///   -div D1 grad phi1 + a phi1 - 2/3 a phi2 = 0,   -div D2 grad phi2 - 2/3 a phi1 + (4/9 a + 5/9 st) phi2 = 0
-/// inside and, with the normal pointing outward and E the diffuse irradiance, (-D grad phi) . n = B phi - s E on the
-/// surface. Here they are turned to the eigenvectors of the reaction, psi, which meet at the surface only:
-///   -laplace psi_i + decay_i^2 psi_i = 0,   -d psi / dn = B psi - s E
+/// A medium at one spectral node, as two modes of SP3 (A. D. Klose and E. W. Larsen, "Light transport in
+/// biological tissue based on the simplified spherical harmonics equations", J. Comput. Phys. 220, 2006).
+/// With st = reduced scattering + absorption, D1 = 1 / (3 st), D2 = 1 / (7 st) the two unknowns of SP3 obey
+/// -div D1 grad phi1 + a phi1 - 2/3 a phi2 = 0,   -div D2 grad phi2 - 2/3 a phi1 + (4/9 a + 5/9 st) phi2 = 0
+/// inside and, with the normal pointing outward and E the diffuse irradiance, (-D grad phi) . n = B phi - s E
+/// on the surface. Here they are turned to the eigenvectors of the reaction, psi, which meet at the surface
+/// only: -laplace psi_i + decay_i^2 psi_i = 0,   -d psi / dn = B psi - s E
 struct Sp3Medium {
-    double extinction;           ///< reduced scattering + absorption, 1/mm
-    double albedo;               ///< reduced scattering over extinction
-    double decay[2];             ///< 1/mm, ascending, 0 or more
-    double boundary[3];          ///< B: 11, 12, 22; symmetric, positive
-    double source[2];            ///< s
-    double fluence[2];           ///< fluence = fluence[0] psi_1 + fluence[1] psi_2
-    double refractive_index;     ///< of the smooth surface that rays meet; 1 of a rough one
-    double inside_reflectance;   ///< of a rough surface for light from inside; 0 of a smooth one
-    double transmittance;        ///< of a rough surface for light from outside; 1 of a smooth one
-    double half_space;           ///< exitance of a half-space of the medium over its diffuse irradiance
+    double extinction;          ///< reduced scattering + absorption, 1/mm
+    double albedo;              ///< reduced scattering over extinction
+    double decay[2];            ///< 1/mm, ascending, 0 or more
+    double boundary[3];         ///< B: 11, 12, 22; symmetric, positive
+    double source[2];           ///< s
+    double fluence[2];          ///< fluence = fluence[0] psi_1 + fluence[1] psi_2
+    double refractive_index;    ///< of the smooth surface that rays meet; 1 of a rough one
+    double inside_reflectance;  ///< of a rough surface for light from inside; 0 of a smooth one
+    double transmittance;       ///< of a rough surface for light from outside; 1 of a smooth one
+    double half_space;          ///< exitance of a half-space of the medium over its diffuse irradiance
 };
 
 /// @param absorption          1/mm, 0 or more
 /// @param reduced_scattering  1/mm, 0 or more, not both 0
 /// @param refractive_index    1 or more, outside is air
-Sp3Medium sp3_medium(double absorption, double reduced_scattering, double refractive_index, ShapeSurface surface);
+Sp3Medium sp3_medium(double absorption, double reduced_scattering, double refractive_index,
+                     ShapeSurface surface);
 
-/// How the modes at a depth below a plane surface hang together with those at it, exactly as in one dimension: with
-/// C = cosh(decay depth) and T = tanh(decay depth) / decay the flux out of the surface is
-///   F = (1 + B T)^-1 (B C^-1 psi - s E),   psi at the surface = C^-1 psi - T F
+/// How the modes at a depth below a plane surface hang together with those at it, exactly as in one
+/// dimension: with C = cosh(decay depth) and T = tanh(decay depth) / decay the flux out of the surface is F =
+/// (1 + B T)^-1 (B C^-1 psi - s E),   psi at the surface = C^-1 psi - T F
 struct SurfaceLink {
-    double falloff[2];   ///< 1 / C
-    double depth[2];     ///< T, mm
-    double flux[2][2];   ///< F of psi: (1 + B T)^-1 B C^-1
-    double source[2];    ///< and less this times E: (1 + B T)^-1 s
+    double falloff[2];  ///< 1 / C
+    double depth[2];    ///< T, mm
+    double flux[2][2];  ///< F of psi: (1 + B T)^-1 B C^-1
+    double source[2];   ///< and less this times E: (1 + B T)^-1 s
 
     /// What the surface adds to the equations of a cell, per area: symmetric, 11, 12, 22.
     double block(int i) const {
         return i == 0 ? falloff[0] * flux[0][0]
-                      : (i == 1 ? 0.5 * (falloff[0] * flux[0][1] + falloff[1] * flux[1][0]) : falloff[1] * flux[1][1]);
+                      : (i == 1 ? 0.5 * (falloff[0] * flux[0][1] + falloff[1] * flux[1][0])
+                                : falloff[1] * flux[1][1]);
     }
     /// And to their right side, per area and irradiance.
     double right(int i) const { return falloff[i] * source[i]; }

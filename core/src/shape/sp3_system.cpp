@@ -19,8 +19,8 @@ double flux_factor(double x, double h) {
     return x < 1e-3 ? h * (1 - x * x / 6) : (x > 500 ? 0.0 : h * x / std::sinh(x));
 }
 
-/// What half a cell and a surface at a height over its center differ by, per area: decay (tanh(decay height) -
-/// tanh(decay h / 2)).
+/// What half a cell and a surface at a height over its center differ by, per area: decay (tanh(decay height)
+/// - tanh(decay h / 2)).
 double reaction_change(double decay, double height, double h) {
     return decay * (std::tanh(decay * height) - std::tanh(0.5 * decay * h));
 }

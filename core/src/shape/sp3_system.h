@@ -9,10 +9,11 @@
 
 namespace skinglow::detail {
 
-/// The equations of all cells, for all nodes side by side: finite volumes of 7 points, whose fluxes between cells are
-/// exact for a field that falls as exp(-decay x), with the surface's condition at its true height over the cell's center,
-/// exact in the same way (SurfaceLink). Each mode's equations are those of the volumes divided by (x / 2) coth(x / 2),
-/// x = decay times cell, so that they are the exact ones of one dimension. Symmetric and positive.
+/// The equations of all cells, for all nodes side by side: finite volumes of 7 points, whose fluxes between
+/// cells are exact for a field that falls as exp(-decay x), with the surface's condition at its true height
+/// over the cell's center, exact in the same way (SurfaceLink). Each mode's equations are those of the
+/// volumes divided by (x / 2) coth(x / 2), x = decay times cell, so that they are the exact ones of one
+/// dimension. Symmetric and positive.
 class Sp3System {
   public:
     /// @param margin  how far flesh goes on at least behind a cut, mm
@@ -43,7 +44,7 @@ class Sp3System {
     void apply(std::span<const LanePair> x, std::span<LanePair> result) const;
     void precondition(std::span<const LanePair> residual, std::span<LanePair> result) const;
 
-    Lanes flux1_, flux2_;  ///< between neighbors, mm
+    Lanes flux1_, flux2_;        ///< between neighbors, mm
     std::vector<Block> blocks_;  ///< the first is that of cells amid others
     std::vector<std::uint32_t> class_of_;
     std::vector<std::array<std::uint32_t, 6>> neighbors_;

@@ -16,7 +16,8 @@ class SparseRows {
     std::size_t rows() const { return begin_.size() - 1; }
     std::size_t entries() const { return column_.size(); }
     std::size_t bytes() const {
-        return begin_.size() * sizeof(std::uint32_t) + column_.size() * (sizeof(std::uint32_t) + sizeof(Value));
+        return begin_.size() * sizeof(std::uint32_t) +
+               column_.size() * (sizeof(std::uint32_t) + sizeof(Value));
     }
 
     void add(std::uint32_t column, const Value& value) {

@@ -7,8 +7,8 @@
 namespace skinglow::detail {
 namespace {
 
-/// Cosine of the angle up to which triangles at a vertex are one smooth surface: between a corner of a box and anything
-/// that is modeled as round.
+/// Cosine of the angle up to which triangles at a vertex are one smooth surface: between a corner of a box
+/// and anything that is modeled as round.
 constexpr float smooth = 0.5F;
 
 glm::vec3 unit_or_zero(const glm::vec3& v) {
@@ -32,8 +32,8 @@ glm::vec3 normal_of(const Body& body, std::span<const std::uint32_t> triangles) 
 SurfaceSites::SurfaceSites(const Body& body) : are_vertices_(true) {
     const std::vector<std::uint32_t>& welded_of = body.welded_of();
     site_of_.resize(welded_of.size());
-    // The triangles of each vertex given; of one that has none (a repeated triangle's, a stray one), all at its
-    // position.
+    // The triangles of each vertex given; of one that has none (a repeated triangle's, a stray one), all at
+    // its position.
     std::map<std::pair<std::uint32_t, std::vector<std::uint32_t>>, std::uint32_t> known;
     for (std::uint32_t v = 0; v < welded_of.size(); ++v) {
         const std::uint32_t welded = welded_of[v];

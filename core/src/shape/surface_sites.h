@@ -15,7 +15,8 @@ struct SitePiece {
     std::uint8_t corner;
 };
 
-/// A place whose exitance is asked: a vertex, which stands for the mean about it weighted by its hat function, or a point.
+/// A place whose exitance is asked: a vertex, which stands for the mean about it weighted by its hat
+/// function, or a point.
 struct Site {
     glm::vec3 position;  ///< mm
     glm::vec3 normal;    ///< unit, outward; 0 where there is no triangle

@@ -76,8 +76,8 @@ std::vector<float> site_thickness(const FleshSurface& surface, const SurfaceSite
     return thickness;
 }
 
-std::vector<ThinPart> thin_parts(const Body& body, const SurfaceSites& sites, const std::vector<float>& thickness,
-                                 double max_thickness, double margin) {
+std::vector<ThinPart> thin_parts(const Body& body, const SurfaceSites& sites,
+                                 const std::vector<float>& thickness, double max_thickness, double margin) {
     glm::vec3 low(0.0F);
     for (const glm::vec3& p : body.positions()) low = glm::min(low, p);
     Blocks thin(margin, low);

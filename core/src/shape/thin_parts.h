@@ -2,8 +2,8 @@
 
 #include <functional>
 
-#include "shape/surface_sites.h"
 #include "shape/flesh_surface.h"
+#include "shape/surface_sites.h"
 
 namespace skinglow::detail {
 
@@ -16,13 +16,14 @@ struct ThinPart {
 /// Told how many sites are done.
 using SitesDone = std::function<void(std::size_t)>;
 
-/// Thickness of the flesh at sites along a narrow cone of rays, mm: their median. Infinite where they find no end.
+/// Thickness of the flesh at sites along a narrow cone of rays, mm: their median. Infinite where they find no
+/// end.
 std::vector<float> site_thickness(const FleshSurface& surface, const SurfaceSites& sites, int threads,
                                   const SitesDone& done);
 
-/// Groups the sites that are thinner than a limit; those of a group hang together by gaps below `margin`. What lies
-/// behind the margin does not matter, so that groups can be solved apart.
-std::vector<ThinPart> thin_parts(const Body& body, const SurfaceSites& sites, const std::vector<float>& thickness,
-                                 double max_thickness, double margin);
+/// Groups the sites that are thinner than a limit; those of a group hang together by gaps below `margin`.
+/// What lies behind the margin does not matter, so that groups can be solved apart.
+std::vector<ThinPart> thin_parts(const Body& body, const SurfaceSites& sites,
+                                 const std::vector<float>& thickness, double max_thickness, double margin);
 
 }  // namespace skinglow::detail

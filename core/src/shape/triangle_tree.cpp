@@ -14,7 +14,8 @@ constexpr std::uint32_t leaf_size = 1;
 /// A node is far from a point beyond this many of its radii.
 constexpr float far_in_radii = 2.0F;
 
-/// atan2 to 1e-4 radians, which is enough to tell inside from outside: a minimax polynomial on an eighth of a turn.
+/// atan2 to 1e-4 radians, which is enough to tell inside from outside: a minimax polynomial on an eighth of a
+/// turn.
 float quick_angle(float y, float x) {
     const float ax = std::abs(x);
     const float ay = std::abs(y);
@@ -28,8 +29,8 @@ float quick_angle(float y, float x) {
     return std::copysign(angle, y);
 }
 
-/// Half the solid angle of a triangle, positive seen from its inner side (A. van Oosterom and J. Strackee, "The solid angle
-/// of a plane triangle", IEEE Trans. Biomed. Eng. 30(2), 1983).
+/// Half the solid angle of a triangle, positive seen from its inner side (A. van Oosterom and J. Strackee,
+/// "The solid angle of a plane triangle", IEEE Trans. Biomed. Eng. 30(2), 1983).
 float half_solid_angle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     const float la = glm::length(a);
     const float lb = glm::length(b);
@@ -40,7 +41,8 @@ float half_solid_angle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& 
 }
 
 /// Nearest point of a triangle, barycentric (C. Ericson, "Real-Time Collision Detection", 2005, 5.1.5).
-glm::vec2 nearest_of_triangle(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+glm::vec2 nearest_of_triangle(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b,
+                              const glm::vec3& c) {
     const glm::vec3 ab = b - a;
     const glm::vec3 ac = c - a;
     const float d1 = glm::dot(ab, p - a);
@@ -80,7 +82,8 @@ TriangleTree::TriangleTree(const Body& body) : body_(body) {
     centers_ = {};
     corners_.reserve(order_.size());
     for (const std::uint32_t i : order_)
-        corners_.push_back({body.corner(triangles[i], 0), body.corner(triangles[i], 1), body.corner(triangles[i], 2)});
+        corners_.push_back(
+            {body.corner(triangles[i], 0), body.corner(triangles[i], 1), body.corner(triangles[i], 2)});
 }
 
 void TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
@@ -117,11 +120,11 @@ void TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
         const glm::vec3 extent = high - low;
         const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
         const std::uint32_t middle = begin + (end - begin) / 2;
-        std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                         [&](std::uint32_t a, std::uint32_t b) {
-                             return centers_[a][axis] != centers_[b][axis] ? centers_[a][axis] < centers_[b][axis]
-                                                                           : a < b;
-                         });
+        std::nth_element(
+            order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+            [&](std::uint32_t a, std::uint32_t b) {
+                return centers_[a][axis] != centers_[b][axis] ? centers_[a][axis] < centers_[b][axis] : a < b;
+            });
         build(begin, middle);
         build(middle, end);
     }

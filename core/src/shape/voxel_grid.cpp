@@ -50,12 +50,13 @@ double box_places(std::span<const glm::vec3> centers, double margin, double cell
     const Bounds bounds = bounds_of(centers);
     double places = 1;
     for (int k = 0; k < 3; ++k)
-        places *= (static_cast<double>(bounds.high[k] - bounds.low[k]) + 2 * margin) / cell + 2 * rim_cells + 3;
+        places *=
+            (static_cast<double>(bounds.high[k] - bounds.low[k]) + 2 * margin) / cell + 2 * rim_cells + 3;
     return places;
 }
 
-VoxelGrid::VoxelGrid(const FleshSurface& surface, std::span<const glm::vec3> centers, double margin, double cell,
-                     int threads)
+VoxelGrid::VoxelGrid(const FleshSurface& surface, std::span<const glm::vec3> centers, double margin,
+                     double cell, int threads)
     : cell_(static_cast<float>(cell)) {
     fit(centers, margin);
     const std::vector<std::uint8_t> near = mark_near(centers, margin);

@@ -14,9 +14,9 @@ namespace skinglow::detail {
 /// Cells of flesh, cubes whose center is inside, within a margin of some points.
 class VoxelGrid {
   public:
-    static constexpr std::int32_t outside = -1;      ///< the center is not in flesh
-    static constexpr std::int32_t left_out = -2;     ///< flesh beyond the margin
-    static constexpr std::int32_t unknown = -3;      ///< far beyond it: nobody has asked
+    static constexpr std::int32_t outside = -1;   ///< the center is not in flesh
+    static constexpr std::int32_t left_out = -2;  ///< flesh beyond the margin
+    static constexpr std::int32_t unknown = -3;   ///< far beyond it: nobody has asked
     static constexpr std::uint32_t no_cell = std::numeric_limits<std::uint32_t>::max();
 
     struct Neighbors {
@@ -52,7 +52,8 @@ class VoxelGrid {
                static_cast<std::size_t>(extent_.z);
     }
     std::size_t linear(const glm::ivec3& p) const {
-        return (static_cast<std::size_t>(p.x) * static_cast<std::size_t>(extent_.y) + static_cast<std::size_t>(p.y)) *
+        return (static_cast<std::size_t>(p.x) * static_cast<std::size_t>(extent_.y) +
+                static_cast<std::size_t>(p.y)) *
                    static_cast<std::size_t>(extent_.z) +
                static_cast<std::size_t>(p.z);
     }
