@@ -37,8 +37,8 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--blender", metavar="PROGRAM", help="a Blender program or a Python with bpy")
     parser.add_argument("--program", type=Path, default=PROGRAM, help="the Monte Carlo (default: %(default)s)")
     parser.add_argument("--photons", type=int, default=800_000, help="per channel and case (default %(default)s)")
-    parser.add_argument("--size", type=int, default=220, help="of a picture, pixels (default %(default)s)")
-    parser.add_argument("--samples", type=int, default=256, help="of a pixel of Cycles' walk (default %(default)s)")
+    parser.add_argument("--size", type=int, default=160, help="of a picture, pixels (default %(default)s)")
+    parser.add_argument("--samples", type=int, default=128, help="of a pixel of Cycles' walk (default %(default)s)")
     parser.add_argument("--out", type=Path, default=Path("out/shape"), help="keeps references (default %(default)s)")
     parser.add_argument("--no-docs", action="store_true", help="do not update docs/shape.md; pictures go to --out")
     return parser.parse_args()
@@ -95,16 +95,8 @@ def main() -> None:
             "monte_carlo_a": one.a,
             "monte_carlo_b": one.b,
         }
-        found = pictures.render(
-            heads.sources[head],
-            one.head,
-            one.case.light,
-            attributes,
-            one.head.back_lit(one.irradiance),
-            {"size": options.size, "samples": options.samples, "out": out, "name": head},
-            host,
-            progress,
-        )
+        where = pictures.Stage(heads.sources[head], one.head, one.case.light, out, head, options.size, host, progress)
+        found = where.pictures(attributes, one.head.back_lit(one.irradiance), options.samples)
         pictures.figure(images / f"shape_{head}.png", found, METHODS)
         views[head] = pictures.view_dependence(found)
         error = next(m for m in measured if m.case is one).shape[tables.CELLS_MM[0]].back.together

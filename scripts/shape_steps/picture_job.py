@@ -27,7 +27,7 @@ from medium import SKIN1  # noqa: E402
 OUT = Path(JOB["out"])
 #: Off the front, towards +X: the camera in the dark, and the one on the light's side.
 VIEWS = {"front": 25.0, "back": 135.0}
-ATTRIBUTE_SAMPLES, SEEDS = 16, (1, 2)
+ATTRIBUTE_SAMPLES, SEEDS = 8, (1, 2)
 
 
 def spot(scene: bpy.types.Scene, light: dict[str, Any]) -> None:
@@ -48,7 +48,8 @@ def store_color(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
 def main() -> dict[str, Any]:
     with np.load(JOB["attributes"]) as file:
         attributes = {name: file[name] for name in file.files}
-    step = Steps(of=len(VIEWS) * (1 + len(SEEDS)))
+    seeds = SEEDS if JOB["samples"] else ()
+    step = Steps(of=len(VIEWS) * (1 + len(seeds)))
     scene = stage.empty_scene()
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
     shading.linear_render(scene, JOB["size"])
@@ -64,12 +65,12 @@ def main() -> dict[str, Any]:
     walk = shading.random_walk(SKIN1)
     for view, azimuth in VIEWS.items():
         stage.aim_camera(scene, Vector(JOB["center"]), JOB["height"], math.radians(azimuth))
-        step(f"{view}: attributes")
+        step(f"{view}: {len(attributes)} attributes")
         for name in attributes:
             shading.assign_material(head, shading.shown_attribute(name))
             pictures[f"{view}-{name}"] = shading.render(scene, ATTRIBUTE_SAMPLES, 0, OUT).pixels
         shading.assign_material(head, walk)
-        for seed in SEEDS:
+        for seed in seeds:
             step(f"{view}: Cycles' random walk, {JOB['samples']} samples per pixel, seed {seed}")
             picture = shading.render(scene, JOB["samples"], seed, OUT)
             pictures[f"{view}-walk_{seed}"] = picture.pixels

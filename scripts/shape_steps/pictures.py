@@ -43,37 +43,28 @@ class Pictures:
         return (dark[:, :, 3] > 0.999) & ((dark[:, :, 0] > 0.999) | (view != "front"))
 
 
-def render(
-    source: Head,
-    head: HeadMesh,
-    light: str,
-    exitance: dict[str, NDArray[np.float64]],
-    back_lit: NDArray[np.bool_],
-    options: dict[str, Any],
-    host: blender_host.Host,
-    progress: Progress,
-) -> Pictures:
-    """exitance by method, (v, 3); shown is exitance / pi. options: size, samples, out, name."""
-    out = Path(options["out"])
-    attributes = {name: values / np.pi for name, values in exitance.items()}
-    dark = np.zeros((len(head.vertices), 3))
-    dark[head.ear[back_lit]] = 1.0
-    attributes["dark"] = dark
-    files = {part: out / f"pictures-{options['name']}-{part}.npz" for part in ("attributes", "pictures")}
-    np.savez(files["attributes"], **attributes)
-    lamp = head.light(light)
-    radius_mm = float(np.linalg.norm(head.vertices[head.ear] - head.ear_center, axis=1).max())
-    numbers = host.run(
-        str(STEPS / "picture_job.py"),
-        {
-            **source.job(),
-            "package": str(blender_host.PACKAGE) if host.is_full_program else None,
-            "attributes": str(files["attributes"]),
-            "pictures": str(files["pictures"]),
-            "size": options["size"],
-            "samples": options["samples"],
-            "out": str(out),
-            "center": list(head.ear_center / 1000.0),
+@dataclass
+class Stage:
+    """What is rendered where. Pictures are kept in the folder `out` under `name`."""
+
+    source: Head
+    head: HeadMesh
+    light: str
+    out: Path
+    name: str
+    size: int
+    host: blender_host.Host
+    progress: Progress
+
+    def job(self) -> dict[str, Any]:
+        lamp = self.head.light(self.light)
+        radius_mm = float(np.linalg.norm(self.head.vertices[self.head.ear] - self.head.ear_center, axis=1).max())
+        return {
+            **self.source.job(),
+            "package": str(blender_host.PACKAGE) if self.host.is_full_program else None,
+            "size": self.size,
+            "out": str(self.out),
+            "center": list(self.head.ear_center / 1000.0),
             "height": 2.0 * MARGIN * radius_mm / 1000.0,
             "light": {
                 "power": lamp.power,
@@ -83,22 +74,35 @@ def render(
                 "position": list(lamp.position),
                 "direction": list(lamp.direction),
             },
-        },
-        progress,
-    )
-    (out / f"pictures-{options['name']}.json").write_text(json.dumps(numbers))
-    with np.load(files["pictures"]) as file:
-        return Pictures({name: file[name].astype(float) for name in file.files}, numbers["seconds"])
+        }
 
+    def render(self, values: dict[str, NDArray[np.float64]], samples: int, part: str) -> Pictures:
+        """Values by vertex (v, 3), shown as they are, and Cycles' walk where samples is not 0."""
+        attributes, result = (self.out / f"{self.name}-{part}-{kind}.npz" for kind in ("attributes", "pictures"))
+        np.savez(attributes, **values)
+        job = {**self.job(), "attributes": str(attributes), "pictures": str(result), "samples": samples}
+        seconds = self.host.run(str(STEPS / "picture_job.py"), job, self.progress)["seconds"]
+        with np.load(result) as file:
+            return Pictures({name: file[name].astype(float) for name in file.files}, seconds)
 
-def load(out: Path, name: str) -> Pictures | None:
-    """Those of an earlier run."""
-    kept = out / f"pictures-{name}.json"
-    if not kept.is_file():
-        return None
-    with np.load(out / f"pictures-{name}-pictures.npz") as file:
-        images = {key: file[key].astype(float) for key in file.files}
-    return Pictures(images, json.loads(kept.read_text())["seconds"])
+    def walk(self, back_lit: NDArray[np.bool_], samples: int) -> Pictures:
+        """Cycles' walk, and which pixels are back-lit skin ("dark"); rendered once."""
+        kept, result = self.out / f"{self.name}-walk.json", self.out / f"{self.name}-walk-pictures.npz"
+        about = {"samples": samples, "size": self.size}
+        if kept.is_file() and (known := json.loads(kept.read_text()))["about"] == about:
+            with np.load(result) as file:
+                return Pictures({name: file[name].astype(float) for name in file.files}, known["seconds"])
+        dark = np.zeros((len(self.head.vertices), 3))
+        dark[self.head.ear[back_lit]] = 1.0
+        found = self.render({"dark": dark}, samples, "walk")
+        kept.write_text(json.dumps({"about": about, "seconds": found.seconds}))
+        return found
+
+    def pictures(self, exitance: dict[str, NDArray[np.float64]], back_lit: NDArray[np.bool_], samples: int) -> Pictures:
+        """Exitance / pi by method, and Cycles' walk."""
+        walk = self.walk(back_lit, samples)
+        shown = self.render({name: values / np.pi for name, values in exitance.items()}, 0, "exitance")
+        return Pictures({**walk.images, **shown.images}, walk.seconds)
 
 
 def figure(path: Path, pictures: Pictures, methods: dict[str, str]) -> None:
