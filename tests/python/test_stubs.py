@@ -100,6 +100,7 @@ def test_package_exports_every_name_once() -> None:
         "thickness_report",
         "Occluders",
         "VisibleFraction",
+        "LitShape",
         "Shape",
         "ShapePart",
     }
@@ -156,7 +157,7 @@ def test_stub_of_the_rays_is_that_of_the_module() -> None:
     assert parameters(function) == parameters(bound_signature(rays.thickness_report))
     assert issubclass(rays.ThicknessCancelled, RuntimeError)
     assert issubclass(rays.ShapeCancelled, RuntimeError)
-    for name in ("Occluders", "Shape"):
+    for name in ("Occluders", "Shape", "LitShape"):
         (owner,) = in_stub[name]
         methods = definitions(owner)
         module_class = getattr(rays, name)
