@@ -38,11 +38,22 @@ glm::dvec3 to_channels(py::handle value, const char* name) {
     return numpy::to_vec3(value, name);
 }
 
+/// A skinglow.Tissue, whose type is the other module's own; None is the skin that a Tissue is by default.
+Tissue to_tissue(py::handle value) {
+    Tissue tissue;
+    if (value.is_none()) return tissue;
+    if (!py::isinstance(value, py::module_::import("skinglow._core").attr("Tissue")))
+        refuse_argument("tissue", py::repr(value).cast<std::string>(), "a skinglow.Tissue or None");
+    for (const TissueParameter& parameter : tissue_parameters())
+        tissue.*parameter.field = value.attr(py::str(std::string(parameter.name))).cast<double>();
+    return tissue;
+}
+
 /// The medium: coefficients, or the tissue, or the skin that a Tissue is by default.
-Shape make_shape(py::handle vertices, py::handle triangles, const std::optional<Tissue>& tissue,
-                 py::handle absorption, py::handle reduced_scattering, double refractive_index,
-                 const std::string& surface, double unit_mm, double cell_mm, double max_thickness_mm,
-                 py::handle points, py::handle normals, int threads, const py::object& progress) {
+Shape make_shape(py::handle vertices, py::handle triangles, py::handle tissue, py::handle absorption,
+                 py::handle reduced_scattering, double refractive_index, const std::string& surface,
+                 double unit_mm, double cell_mm, double max_thickness_mm, py::handle points,
+                 py::handle normals, int threads, const py::object& progress) {
     const TriangleMesh mesh = numpy::to_mesh(vertices, triangles);
     const ShapeOptions options{unit_mm, cell_mm, max_thickness_mm, surface_finish(surface), threads};
     std::vector<glm::dvec3> places;
@@ -54,10 +65,11 @@ Shape make_shape(py::handle vertices, py::handle triangles, const std::optional<
     const ShapePoints where{places, facing};
     const bool has_medium = !absorption.is_none() || !reduced_scattering.is_none();
     if (!has_medium) {
-        const Tissue skin = tissue.value_or(Tissue{});
+        const Tissue skin = to_tissue(tissue);
         return numpy::without_gil([&] { return Shape(mesh, skin, options, where, ask_python(progress)); });
     }
-    if (tissue) refuse_argument("tissue", "given with coefficients", "a tissue or coefficients, not both");
+    if (!tissue.is_none())
+        refuse_argument("tissue", "given with coefficients", "a tissue or coefficients, not both");
     if (absorption.is_none() || reduced_scattering.is_none()) {
         refuse_argument(absorption.is_none() ? "absorption" : "reduced_scattering", "not given",
                         "three numbers each, 1/mm: absorption and reduced_scattering go together");
@@ -82,6 +94,29 @@ py::array exitance_of_array(const Shape& self, py::handle irradiance) {
     return numpy::from_vec3s(numpy::without_gil([&] { return self.exitance(given); }));
 }
 
+LitShape lit_by_arrays(const Shape& self, py::handle lights, const std::optional<Environment>& environment,
+                       const std::optional<Occluders>& occluders, std::vector<std::size_t> excluded,
+                       int reentries, int shadow_samples) {
+    const PreparedRig rig = numpy::to_rig(lights);
+    const ShapeLightOptions options{environment ? &*environment : nullptr, occluders ? &*occluders : nullptr,
+                                    std::move(excluded), reentries, shadow_samples};
+    return numpy::without_gil([&] { return self.light(rig, options); });
+}
+
+py::array per_light_array(const LitShape& self) {
+    py::array rows = numpy::from_vec3s(numpy::without_gil([&] { return self.per_light(); }));
+    return rows.attr("reshape")(self.lights(), self.exitance().size(), 3);
+}
+
+py::array recolored(const LitShape& self, py::handle colors) {
+    const std::vector<glm::dvec3> given = numpy::to_vec3s(colors, "colors");
+    return numpy::from_vec3s(numpy::without_gil([&] { return self.recolor(given); }));
+}
+
+py::array copy_of(const std::vector<glm::dvec3>& rows) {
+    return numpy::from_vec3s(std::vector<glm::dvec3>(rows));
+}
+
 py::dict part_of(const ShapePart& part) {
     py::array_t<std::int64_t> points(static_cast<py::ssize_t>(part.points.size()));
     std::copy(part.points.begin(), part.points.end(), points.mutable_data());
@@ -94,6 +129,14 @@ py::dict part_of(const ShapePart& part) {
 
 void bind_shape(py::module_& m) {
     py::register_local_exception<ShapeCancelled>(m, "ShapeCancelled", PyExc_RuntimeError);
+    py::class_<LitShape>(m, "LitShape", "See skinglow.LitShape.")
+        .def_property_readonly("exitance", [](const LitShape& self) { return copy_of(self.exitance()); })
+        .def_property_readonly("transmitted",
+                               [](const LitShape& self) { return copy_of(self.transmitted()); })
+        .def_property_readonly("irradiance", [](const LitShape& self) { return copy_of(self.irradiance()); })
+        .def_property_readonly("left_out", &LitShape::left_out)
+        .def("per_light", &per_light_array, "See skinglow.LitShape.per_light.")
+        .def("recolor", &recolored, "colors"_a, "See skinglow.LitShape.recolor.");
     py::class_<Shape>(m, "Shape", "See skinglow.Shape.")
         .def(py::init(&make_shape), "vertices"_a, "triangles"_a, "tissue"_a, "absorption"_a,
              "reduced_scattering"_a, "refractive_index"_a, "surface"_a, "unit_mm"_a, "cell_mm"_a,
@@ -111,7 +154,9 @@ void bind_shape(py::module_& m) {
                  for (const ShapePart& part : self.parts()) list.append(part_of(part));
                  return list;
              })
-        .def("exitance", &exitance_of_array, "irradiance"_a, "See skinglow.Shape.exitance.");
+        .def("exitance", &exitance_of_array, "irradiance"_a, "See skinglow.Shape.exitance.")
+        .def("light", &lit_by_arrays, "lights"_a, "environment"_a, "occluders"_a, "excluded"_a, "reentries"_a,
+             "shadow_samples"_a, "See skinglow.Shape.light.");
 }
 
 }  // namespace skinglow

@@ -63,7 +63,7 @@ from skinglow._core import (
 )
 from skinglow._occlusion import Occluders, VisibleFraction
 from skinglow._renamed import __getattr__ as __getattr__
-from skinglow._shape import Shape, ShapePart
+from skinglow._shape import LitShape, Shape, ShapePart
 from skinglow._spectra import line_spectrum
 from skinglow._thickness import ThicknessReport, thickness, thickness_report
 
@@ -137,6 +137,7 @@ __all__ = [
     "Occluders",
     "VisibleFraction",
     # Light through the real shape
+    "LitShape",
     "Shape",
     "ShapePart",
     "ThicknessReport",

@@ -6,7 +6,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from skinglow._core import Light, Tissue
+from skinglow._core import Environment, Light, PreparedRig, Tissue
 
 DEFAULT_RAYS: Final[int]
 DEFAULT_CONE_HALF_ANGLE: Final[float]
@@ -69,3 +69,24 @@ class Shape:
     def bytes(self) -> int: ...
     def parts(self) -> list[dict[str, Any]]: ...
     def exitance(self, irradiance: ArrayLike) -> NDArray[np.float64]: ...
+    def light(
+        self,
+        lights: Sequence[Light] | PreparedRig,
+        environment: Environment | None,
+        occluders: Occluders | None,
+        excluded: Sequence[int],
+        reentries: int,
+        shadow_samples: int,
+    ) -> LitShape: ...
+
+class LitShape:
+    @property
+    def exitance(self) -> NDArray[np.float64]: ...
+    @property
+    def transmitted(self) -> NDArray[np.float64]: ...
+    @property
+    def irradiance(self) -> NDArray[np.float64]: ...
+    @property
+    def left_out(self) -> list[int]: ...
+    def per_light(self) -> NDArray[np.float64]: ...
+    def recolor(self, colors: ArrayLike) -> NDArray[np.float64]: ...

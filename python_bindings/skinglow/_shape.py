@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from skinglow._core import Tissue
+from skinglow._core import Environment, Light, PreparedRig, Tissue
+from skinglow._occlusion import Occluders
 from skinglow._rays_loader import load_rays
 
-__all__ = ["Shape", "ShapePart"]
+__all__ = ["LitShape", "Shape", "ShapePart"]
 
 
 class ShapePart(NamedTuple):
@@ -100,6 +102,25 @@ class Shape:
         """Memory of what is prepared."""
         return self._shape.bytes
 
+    @property
+    def report(self) -> dict[str, Any]:
+        """What was chosen and left out.
+
+        points, parts, points_in_parts  numbers; points in no part are taken to be thick, with a half-space's exitance
+        ready_parts, cells, bytes       of the parts that light fell on
+        lost_area_fraction              largest of the parts': where it is not small, the cells are too large
+        """
+        parts = self.parts
+        return {
+            "points": len(self.points),
+            "parts": len(parts),
+            "points_in_parts": sum(len(part.points) for part in parts),
+            "ready_parts": sum(part.is_ready for part in parts),
+            "cells": sum(part.cells for part in parts),
+            "bytes": self.bytes,
+            "lost_area_fraction": max((part.lost_area_fraction for part in parts), default=0.0),
+        }
+
     def exitance(self, irradiance: ArrayLike) -> NDArray[np.float64]:
         """What leaves the flesh, (n, 3), W/m^2, 0 or more; without light that enters skin again.
 
@@ -108,3 +129,68 @@ class Shape:
         irradiance  (v, 3), or (v,) for all channels alike: at each vertex, W/m^2, finite; linear on triangles, diffuse
         """
         return self._shape.exitance(irradiance)
+
+    def light(
+        self,
+        lights: Sequence[Light] | PreparedRig,
+        environment: Environment | None = None,
+        occluders: Occluders | None = None,
+        reentries: int = 2,
+        *,
+        excluded: Sequence[int] = (),
+        shadow_samples: int = 16,
+    ) -> LitShape:
+        """The body under lights, whose shadows it casts itself, and other objects.
+
+        lights          in the frame and the unit of the vertices; what they bring is irradiance as everywhere (one unit
+                        of length is a meter)
+        environment     the world
+        occluders       other objects, in the same frame
+        reentries       how often light that leaves skin enters skin again, 0 to 8
+        excluded        meshes of the occluders that do not count: the body's own
+        shadow_samples  rays to a light that has an extent, 1 to 4096
+        """
+        scene = None if occluders is None else occluders._scene
+        return LitShape(self._shape.light(lights, environment, scene, excluded, reentries, shadow_samples))
+
+
+class LitShape:
+    """A body under lights; made by Shape.light."""
+
+    def __init__(self, lit: Any) -> None:  # of the compiled module
+        self._lit = lit
+
+    @cached_property
+    def exitance(self) -> NDArray[np.float64]:
+        """(n, 3): what leaves the flesh at each point, W/m^2, 0 or more; not what the surface throws back."""
+        return self._lit.exitance
+
+    @cached_property
+    def transmitted(self) -> NDArray[np.float64]:
+        """(n, 3): exitance less what a half-space would send out under the same irradiance, at least 0.
+
+        To add to skin that is shaded as lit from its own side.
+        """
+        return self._lit.transmitted
+
+    @cached_property
+    def irradiance(self) -> NDArray[np.float64]:
+        """(v, 3): at the vertices, of lights and world, shadows included; 0 where it does not matter."""
+        return self._lit.irradiance
+
+    @cached_property
+    def per_light(self) -> NDArray[np.float64]:
+        """(k, n, 3): exitance by light alone. Solved when it is first asked for, each light by itself."""
+        return self._lit.per_light()
+
+    def recolor(self, colors: ArrayLike) -> NDArray[np.float64]:
+        """(n, 3): the exitance with other colors of the lights; sums alone once this or per_light was asked for.
+
+        colors  (k, 3), linear Rec.709, finite, 0 or more, in place of the lights' own
+        """
+        return self._lit.recolor(colors)
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """left_out: indices of lights that give nothing, or all together less than a thousandth of the light."""
+        return {"left_out": self._lit.left_out}

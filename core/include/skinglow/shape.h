@@ -1,6 +1,9 @@
 #pragma once
 
+#include <skinglow/environment.h>
 #include <skinglow/mesh.h>
+#include <skinglow/occlusion.h>
+#include <skinglow/rig.h>
 #include <skinglow/tissue.h>
 
 #include <cstddef>
@@ -23,7 +26,8 @@ namespace skinglow {
 
 namespace detail {
 struct ShapeData;
-}
+struct LitShapeData;
+}  // namespace detail
 
 /// What the surface of a body does to light that crosses it. Light enters diffused either way.
 enum class SurfaceFinish {
@@ -82,6 +86,47 @@ struct ShapePart {
     double lost_area_fraction = 0;  ///< of its surface, where the flesh is too thin for a cell
 };
 
+struct ShapeLightOptions {
+    const Environment* environment = nullptr;  ///< none: black
+    const Occluders* occluders = nullptr;      ///< other objects, in the frame of the vertices; none: nothing
+    std::vector<std::size_t> excluded = {};    ///< meshes of the occluders that do not count: the body's own
+    int reentries = 2;                         ///< how often light that leaves skin enters skin again, 0 to 8
+    int shadow_samples = 16;                   ///< rays to a light that has an extent, 1 to 4096
+};
+
+/// A body under lights. Copies share what was solved; may be asked from many threads at once.
+class LitShape {
+  public:
+    /// What leaves the flesh at each point, W/m^2, 0 or more. Light that the surface throws back, without
+    /// having entered, is not in it.
+    const std::vector<glm::dvec3>& exitance() const;
+
+    /// What comes through: the exitance less what a half-space of the same flesh would send out under the
+    /// irradiance of the point, at least 0. To add to skin that is shaded as lit from its own side.
+    const std::vector<glm::dvec3>& transmitted() const;
+
+    /// Irradiance at the vertices of the mesh, of lights and world, shadows included; 0 where it does not
+    /// matter.
+    const std::vector<glm::dvec3>& irradiance() const;
+
+    std::size_t lights() const;
+    /// Lights that give nothing to the body, or less than a thousandth of all together: left out of
+    /// exitance().
+    const std::vector<std::size_t>& left_out() const;
+
+    /// Exitance by light alone: light k's at point i is [k * points + i]. The first call solves once for each
+    /// light, and again for the environment.
+    std::vector<glm::dvec3> per_light() const;
+
+    /// The exitance with other colors of the lights: no more than sums once per_light() or this was called.
+    /// @param colors  one per light, linear Rec.709, finite, 0 or more; in place of the lights' own
+    std::vector<glm::dvec3> recolor(std::span<const glm::dvec3> colors) const;
+
+  private:
+    friend class Shape;
+    std::shared_ptr<const detail::LitShapeData> data_;
+};
+
 /// A body that light is solved in. Copies share what is prepared; may be asked from many threads at once.
 class Shape {
   public:
@@ -115,6 +160,12 @@ class Shape {
     /// @param irradiance  at each vertex of the mesh, W/m^2, finite; taken as linear on triangles, diffuse
     /// @return one per point, 0 or more. Throws std::invalid_argument naming the entry
     std::vector<glm::dvec3> exitance(std::span<const glm::dvec3> irradiance) const;
+
+    /// The same under lights, whose shadows the body itself and other objects cast.
+    /// @param lights  in the frame and the unit of the vertices; what they bring is irradiance as everywhere
+    ///                (rig.h: one unit of length is a meter)
+    /// @throws std::invalid_argument naming what is not allowed
+    LitShape light(const PreparedRig& lights, const ShapeLightOptions& options = {}) const;
 
     /// For the library's own parts.
     const detail::ShapeData& data() const { return *data_; }

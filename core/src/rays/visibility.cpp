@@ -1,16 +1,14 @@
 #include <skinglow/occlusion.h>
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <string>
 
 #include "numerics/argument_check.h"
 #include "numerics/parallel_blocks.h"
 #include "radiometry/prepared_light.h"
-#include "rays/light_sampling.h"
 #include "rays/occluder_scene.h"
+#include "rays/visible_fraction.h"
 #include "rig/rig_data.h"
 
 namespace skinglow {
@@ -19,30 +17,6 @@ namespace {
 constexpr int max_samples = 4096;
 /// Relative error of the irradiance, which only weighs points against one another.
 constexpr double weight_tolerance = 1e-4;
-
-double fractional_part(double value) {
-    return value - std::floor(value);
-}
-
-/// Points of the unit square: the rank-1 lattice of the golden ratio, shifted by the point's own member of
-/// the R2 sequence (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018), whose base
-/// is the real root of x^3 = x + 1.
-struct ShiftedLattice {
-    double shift_u, shift_v;
-    int count;
-
-    ShiftedLattice(std::size_t point, int samples) : count(samples) {
-        constexpr double plastic = 1.32471795724474602596;
-        const auto n = static_cast<double>(point);
-        shift_u = fractional_part(n / plastic);
-        shift_v = fractional_part(n / plastic / plastic);
-    }
-    double u(int i) const { return fractional_part((i + 0.5) / count + shift_u); }
-    double v(int i) const {
-        constexpr double golden = 0.61803398874989484820;
-        return fractional_part(i * golden + shift_v);
-    }
-};
 
 /// What is asked of one light at each point.
 struct Query {
@@ -59,31 +33,8 @@ struct Query {
     /// @param index   of the point, for its samples
     double fraction(const PreparedLight& light, const glm::dvec3& point, const glm::dvec3& normal,
                     std::size_t index) const {
-        if (is_sharp(light, point)) {
-            const bool is_sun = light.kind() == LightKind::sun;
-            const double distance = is_sun ? std::numeric_limits<double>::infinity() : light.distance(point);
-            return sees(point, {light.to_light(point), distance, 1.0}) ? 1.0 : 0.0;
-        }
-        const ShiftedLattice lattice(index, samples);
-        double all = 0;
-        double seen = 0;
-        LightSample highest{};
-        double highest_cosine = -2;
-        for (int i = 0; i < samples; ++i) {
-            const LightSample ray = sample_light(light, point, normal, lattice.u(i), lattice.v(i));
-            const double cosine = glm::dot(ray.direction, normal);
-            if (cosine > highest_cosine) {
-                highest_cosine = cosine;
-                highest = ray;
-            }
-            const double weight = std::max(0.0, cosine) * ray.emission;
-            if (weight == 0.0) continue;
-            all += weight;
-            if (sees(point, ray)) seen += weight;
-        }
-        // A sliver of the light between the samples: the ray highest above the horizon stands for it.
-        if (all == 0.0) return sees(point, highest) ? 1.0 : 0.0;
-        return std::min(1.0, seen / all);
+        return visible_fraction_at(light, point, normal, index, samples,
+                                   [&](const LightSample& ray) { return sees(point, ray); });
     }
 };
 

@@ -77,7 +77,10 @@ class FlightTracer {
         for (int r = 0; r < options_.rays && site.on_surface; ++r) {
             const auto x = lattice.at(r);
             Ray ray = site.pieces == 0 ? from_point(site) : from_vertex(pieces, area, x);
-            ray.direction = cosine_direction(-ray.normal, x[3], x[4]);
+            // From a point the even coordinate is free, and goes with the one of the golden ratio.
+            const float turn = static_cast<float>(r) * 0.618034F + lattice.at(0)[1];
+            ray.direction = site.pieces == 0 ? cosine_direction(-ray.normal, x[0], turn - std::floor(turn))
+                                             : cosine_direction(-ray.normal, x[3], x[4]);
             follow(ray, 131 * static_cast<std::uint64_t>(index) + static_cast<std::uint64_t>(r));
         }
         store(index, rows);

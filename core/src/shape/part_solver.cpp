@@ -40,7 +40,7 @@ PartSolver::PartSolver(const FleshSurface& surface, const SurfaceSites& all,
       fluence1_(medium.lanes([&](const Sp3Medium& m) { return seen_fluence(m, options.cell)[0]; })),
       fluence2_(medium.lanes([&](const Sp3Medium& m) { return seen_fluence(m, options.cell)[1]; })),
       lost_fraction_(samples.lost_area / std::max(samples.lost_area + samples.area, 1e-30)) {
-    ghosts_.index = {};
+    if (!options.keep_places) ghosts_.index = {};
 }
 
 PartField PartSolver::solve(std::span<const Lanes> light, double tolerance) const {
@@ -76,16 +76,21 @@ PartField PartSolver::solve(std::span<const Lanes> light, double tolerance) cons
     return field;
 }
 
-void PartSolver::exitance(const PartField& field, std::span<const Lanes> light, std::span<Lanes> out,
-                          int threads) const {
+bool PartSolver::covers(const Site& site) const {
+    return site.on_surface &&
+           grid_.at(grid_.place_of(site.position - site.normal * (0.5F * grid_.cell()))) >= 0;
+}
+
+void PartSolver::exitance(const LastFlight& flight, const PartField& field, std::span<const Lanes> light,
+                          std::span<Lanes> out, int threads) {
     const auto work = [&](std::size_t begin, std::size_t end) {
         for (std::size_t s = begin; s < end; ++s) {
             Lanes sum;
-            const auto cells = flight_.of_fluence.columns(s);
-            const auto weights = flight_.of_fluence.values(s);
+            const auto cells = flight.of_fluence.columns(s);
+            const auto weights = flight.of_fluence.values(s);
             for (std::size_t i = 0; i < cells.size(); ++i) sum += weights[i] * field.fluence[cells[i]];
-            const auto vertices = flight_.of_light.columns(s);
-            const auto through = flight_.of_light.values(s);
+            const auto vertices = flight.of_light.columns(s);
+            const auto through = flight.of_light.values(s);
             for (std::size_t i = 0; i < vertices.size(); ++i) sum += through[i] * light[vertices[i]];
             out[s] = each_lane([&](std::size_t k) { return std::max(0.0F, sum[k]); });
         }

@@ -12,6 +12,7 @@ struct PartOptions {
     double cell = 0.8;  ///< mm
     double margin = 7;  ///< of flesh about the sites, mm
     int threads = 0;
+    bool keep_places = false;  ///< so that rows for more sites can be made
     LastFlightOptions flight = {};
 };
 
@@ -35,7 +36,21 @@ class PartSolver {
 
     /// Exitance of the sites, in their order; 0 or more.
     void exitance(const PartField& field, std::span<const Lanes> light, std::span<Lanes> out,
-                  int threads) const;
+                  int threads) const {
+        exitance(flight_, field, light, out, threads);
+    }
+    /// The same of other sites.
+    static void exitance(const LastFlight& flight, const PartField& field, std::span<const Lanes> light,
+                         std::span<Lanes> out, int threads);
+
+    /// Rows for other sites; with `keep_places` alone.
+    LastFlight flight_of(const FleshSurface& surface, const SurfaceSites& all,
+                         std::span<const std::uint32_t> sites, const LaneMedium& medium,
+                         const LastFlightOptions& options) const {
+        return last_flight(surface, grid_, ghosts_, medium, all, sites, options);
+    }
+    /// Whether a site lies on a cell.
+    bool covers(const Site& site) const;
 
     std::uint32_t cells() const { return grid_.size(); }
     double cell() const { return static_cast<double>(grid_.cell()); }

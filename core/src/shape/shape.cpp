@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <string>
 
 #include "numerics/argument_check.h"
@@ -12,8 +11,6 @@ namespace skinglow {
 namespace {
 
 constexpr int spectral_node_count = 4;
-/// Of the residual, in the preconditioner's norm.
-constexpr double tolerance = 1e-4;
 constexpr double min_cell_mm = 0.02;
 
 void validate(const MeshView& mesh, const ShapeOptions& options, const ShapePoints& points) {
@@ -75,10 +72,6 @@ std::function<void(double)> reporting(const ShapeProgress& progress) {
     };
 }
 
-Lanes each_channel(const glm::dvec3& rgb) {
-    return {{static_cast<float>(rgb.r), static_cast<float>(rgb.g), static_cast<float>(rgb.b), 0}};
-}
-
 }  // namespace
 
 namespace detail {
@@ -98,20 +91,6 @@ ShapeData::ShapeData(const MeshView& mesh, const LaneMedium& medium, std::option
             points.push_back(body.origin() + glm::dvec3(site.position) / given.unit_mm);
     }
     if (progress && !progress(1.0)) throw ShapeCancelled();
-}
-
-glm::dmat3 ShapeData::combine(const Lanes& exitance) const {
-    if (!spectrum) {
-        glm::dmat3 matrix(0.0);
-        for (int c = 0; c < 3; ++c) matrix[c][c] = static_cast<double>(exitance[static_cast<std::size_t>(c)]);
-        return matrix;
-    }
-    std::array<double, lane_count> nodes{};
-    for (std::size_t k = 0; k < spectrum->nodes.size(); ++k) {
-        const SpectralNodes::Node& node = spectrum->nodes[k];
-        nodes[k] = static_cast<double>(exitance[k]) * node.entry_factor * node.exit_factor;
-    }
-    return spectrum->combine(std::span(nodes).first(spectrum->nodes.size()));
 }
 
 }  // namespace detail
@@ -164,16 +143,16 @@ std::vector<ShapePart> Shape::parts() const {
     std::vector<ShapePart> result;
     for (const auto& lazy : data_->solver.parts()) {
         ShapePart part{};
-        for (const std::uint32_t s : lazy->part().sites)
+        for (const std::uint32_t s : lazy->part.sites)
             part.points.insert(part.points.end(), points_of[s].begin(), points_of[s].end());
         std::sort(part.points.begin(), part.points.end());
         for (const std::uint32_t i : part.points)
             part.center += data_->points[i] / static_cast<double>(part.points.size());
-        if (const PartSolver* solver = lazy->ready()) {
+        if (const PartSolver* solver = lazy->solver.ready()) {
             part.is_ready = true;
             part.cell_mm = solver->cell();
             part.cells = solver->cells();
-            part.bytes = solver->bytes();
+            part.bytes = lazy->bytes();
             part.lost_area_fraction = solver->lost_fraction();
         }
         result.push_back(std::move(part));
@@ -188,31 +167,10 @@ std::vector<glm::dvec3> Shape::exitance(std::span<const glm::dvec3> irradiance) 
     }
     for (std::size_t i = 0; i < irradiance.size(); ++i)
         require_finite(entry_name("irradiance", i), irradiance[i]);
-    const auto& site_of = data_->solver.sites().site_of();
-    std::vector<glm::dvec3> result(site_of.size(), glm::dvec3(0.0));
-    std::vector<Lanes> light(irradiance.size());
-    if (!data_->spectrum) {
-        std::transform(irradiance.begin(), irradiance.end(), light.begin(), each_channel);
-        const std::vector<Lanes> exitance = data_->solver.exitance(light, tolerance);
-        for (std::size_t i = 0; i < result.size(); ++i) {
-            const Lanes& e = exitance[site_of[i]];
-            result[i] = {e[0], e[1], e[2]};
-        }
-        return result;
-    }
-    // Light of each channel goes through the flesh by itself; gray light once.
-    const bool is_gray = std::all_of(irradiance.begin(), irradiance.end(),
-                                     [](const glm::dvec3& e) { return e.r == e.g && e.g == e.b; });
-    for (int c = 0; c < (is_gray ? 1 : 3); ++c) {
-        for (std::size_t i = 0; i < light.size(); ++i)
-            light[i] = Lanes::all(static_cast<float>(irradiance[i][c]));
-        const std::vector<Lanes> exitance = data_->solver.exitance(light, tolerance);
-        for (std::size_t i = 0; i < result.size(); ++i) {
-            const glm::dmat3 matrix = data_->combine(exitance[site_of[i]]);
-            result[i] += is_gray ? matrix * glm::dvec3(1.0) : matrix[c];
-        }
-    }
-    for (glm::dvec3& e : result) e = glm::max(e, glm::dvec3(0.0));
+    const std::vector<glm::dvec3> of_sites = data_->solve(irradiance, 0).exitance;
+    std::vector<glm::dvec3> result;
+    result.reserve(points().size());
+    for (const std::uint32_t s : data_->solver.sites().site_of()) result.push_back(of_sites[s]);
     return result;
 }
 

@@ -15,6 +15,20 @@ struct ShapeData {
     ShapeData(const MeshView& mesh, const LaneMedium& medium, std::optional<SpectralNodes> spectrum,
               const ShapeOptions& options, const ShapePoints& points, const ShapeProgress& progress);
 
+    /// Exitance of the sites, and what of it a half-space has, from the irradiance of three channels.
+    struct Colors {
+        std::vector<glm::dvec3> exitance;
+        std::vector<glm::dvec3> reflected;
+    };
+    /// @param irradiance  one per vertex
+    Colors solve(std::span<const glm::dvec3> irradiance, int reentries) const;
+
+    /// The matrix of each site from the irradiance of white light at the vertices.
+    std::vector<glm::mat3> matrices(std::span<const float> irradiance, int reentries) const;
+
+    /// What the epidermis lets through of light that leaves skin and enters again, by node.
+    Lanes on_the_way() const;
+
     /// The matrix M of a site, exitance M E of light of color E, from its exitance at the nodes.
     glm::dmat3 combine(const Lanes& exitance) const;
 
@@ -23,6 +37,9 @@ struct ShapeData {
     std::vector<glm::dvec3> points;
     std::optional<SpectralNodes> spectrum;  ///< none: three channels
     ShapeSolver solver;
+
+  private:
+    void add_channel(Colors& colors, std::span<const Lanes> light, int reentries, int channel) const;
 };
 
 }  // namespace skinglow::detail

@@ -11,6 +11,8 @@ namespace {
 /// Flesh about a thin site counts up to this many lengths over which the least absorbed light falls to 1/e.
 constexpr double margin_in_decays = 2;
 constexpr double margin_in_cells = 4;
+/// Rays from a vertex whose exitance is only wanted as light for others.
+constexpr int reentry_rays = 32;
 
 double margin_of(const LaneMedium& medium, const SolverOptions& options) {
     const double decay = medium.min_decay();
@@ -41,30 +43,81 @@ ShapeSolver::ShapeSolver(const MeshView& mesh, std::span<const glm::dvec3> point
       medium_(medium),
       margin_(margin_of(medium, options)) {
     const auto count = static_cast<double>(std::max<std::size_t>(1, sites_.sites().size()));
-    thickness_ = site_thickness(surface_, sites_, options.threads, [&](std::size_t sites) {
+    const auto thickness = site_thickness(surface_, sites_, options.threads, [&](std::size_t sites) {
         if (done) done(static_cast<double>(sites) / count);
     });
-    for (ThinPart& part : thin_parts(body_, sites_, thickness_, options.max_thickness_mm, margin_))
-        parts_.push_back(std::make_unique<LazyPart>(std::move(part)));
+    is_thin_.assign(sites_.sites().size(), 0);
+    for (ThinPart& part : thin_parts(body_, sites_, thickness, options.max_thickness_mm, margin_)) {
+        for (const std::uint32_t s : part.sites) is_thin_[s] = 1;
+        parts_.push_back(std::make_unique<LazyPart>());
+        parts_.back()->part = std::move(part);
+    }
+}
+
+const SurfaceSites& ShapeSolver::vertex_sites() const {
+    return sites_.are_vertices() ? sites_ : vertex_sites_.get([&] { return SurfaceSites(body_); });
 }
 
 const PartSolver& ShapeSolver::solver_of(const LazyPart& part) const {
-    return part.solver([&](const ThinPart& p) {
-        const PartOptions options{options_.cell_mm, margin_, options_.threads, {.threads = options_.threads}};
-        return std::make_unique<const PartSolver>(surface_, sites_, p.sites, medium_, options);
+    return part.solver.get([&] {
+        const PartOptions options{options_.cell_mm,
+                                  margin_,
+                                  options_.threads,
+                                  !sites_.are_vertices(),
+                                  {.threads = options_.threads}};
+        return PartSolver(surface_, sites_, part.part.sites, medium_, options);
     });
 }
 
-Lanes ShapeSolver::light_at(const Site& site, std::span<const Lanes> light) const {
+const VertexRows& ShapeSolver::vertex_rows(const LazyPart& part) const {
+    return part.vertices.get([&] {
+        const PartSolver& solver = solver_of(part);
+        VertexRows rows;
+        for (const std::uint32_t v : part.part.vertices) {
+            const std::uint32_t s = vertex_sites().site_of()[v];
+            if (solver.covers(vertex_sites().sites()[s])) rows.sites.push_back(s);
+        }
+        std::sort(rows.sites.begin(), rows.sites.end());
+        rows.sites.erase(std::unique(rows.sites.begin(), rows.sites.end()), rows.sites.end());
+        rows.flight = solver.flight_of(surface_, vertex_sites(), rows.sites, medium_,
+                                       {.rays = reentry_rays, .threads = options_.threads});
+        return rows;
+    });
+}
+
+const Reentry& ShapeSolver::reentry() const {
+    return reentry_.get(
+        [&] { return Reentry(surface_, vertex_sites(), wanted_vertices(false), options_.threads); });
+}
+
+std::vector<std::uint8_t> ShapeSolver::wanted_vertices(bool reentries) const {
+    if (sites_.are_vertices()) return std::vector<std::uint8_t>(body_.welded_of().size(), 1);
+    std::vector<std::uint8_t> wanted(body_.welded_of().size(), 0);
+    for (const auto& part : parts_) {
+        for (const std::uint32_t v : part->part.vertices) wanted[v] = 1;
+    }
+    for (std::size_t s = 0; s < is_thin_.size(); ++s) {
+        const Site& site = sites_.sites()[s];
+        if (is_thin_[s] != 0 || !site.on_surface) continue;
+        for (int k = 0; k < 3; ++k) wanted[body_.triangles()[site.point.triangle].corners[k]] = 1;
+    }
+    if (reentries) {
+        const std::vector<std::uint8_t>& seen = reentry().seen();
+        for (std::size_t v = 0; v < wanted.size(); ++v) wanted[v] = wanted[v] | seen[v];
+    }
+    return wanted;
+}
+
+Lanes ShapeSolver::light_at(const SurfaceSites& of, const Site& site, std::span<const Lanes> light) const {
     if (!site.on_surface) return {};
-    const auto at = [&](std::uint32_t triangle, float u, float v) {
-        const glm::uvec3& c = body_.triangles()[triangle].corners;
-        return light[c.x] * (1 - u - v) + light[c.y] * u + light[c.z] * v;
-    };
-    if (site.pieces == 0) return at(site.point.triangle, site.point.u, site.point.v);
+    if (site.pieces == 0) {
+        const glm::uvec3& c = body_.triangles()[site.point.triangle].corners;
+        return light[c.x] * (1 - site.point.u - site.point.v) + light[c.y] * site.point.u +
+               light[c.z] * site.point.v;
+    }
     Lanes sum;
     float area = 0;
-    for (const SitePiece& piece : sites_.pieces(site)) {
+    for (const SitePiece& piece : of.pieces(site)) {
         const BodyTriangle& t = body_.triangles()[piece.triangle];
         // The mean by the hat function of what is linear: half of the corner, a quarter of the others.
         const Lanes all = light[t.corners.x] + light[t.corners.y] + light[t.corners.z];
@@ -74,33 +127,74 @@ Lanes ShapeSolver::light_at(const Site& site, std::span<const Lanes> light) cons
     return sum * (1 / area);
 }
 
-std::vector<Lanes> ShapeSolver::exitance(std::span<const Lanes> light, double tolerance) const {
-    std::vector<Lanes> result(sites_.sites().size());
+std::vector<Lanes> ShapeSolver::half_space(const SurfaceSites& of, std::span<const Lanes> light) const {
     const Lanes reflectance = medium_.lanes([](const Sp3Medium& m) { return m.half_space; });
-    for (std::size_t i = 0; i < result.size(); ++i)
-        result[i] = light_at(sites_.sites()[i], light) * reflectance;
-    const auto is_lit = [&](const ThinPart& part) {
-        return std::any_of(part.vertices.begin(), part.vertices.end(), [&](std::uint32_t v) {
-            return std::any_of(std::begin(light[v].v), std::end(light[v].v), [](float e) { return e != 0; });
-        });
-    };
-    for (const auto& lazy : parts_) {
-        const ThinPart& part = lazy->part();
-        std::vector<Lanes> out(part.sites.size());
-        if (is_lit(part)) {
-            const PartSolver& solver = solver_of(*lazy);
-            solver.exitance(solver.solve(light, tolerance), light, out, options_.threads);
-        }
-        for (std::size_t i = 0; i < out.size(); ++i) result[part.sites[i]] = out[i];
-    }
+    std::vector<Lanes> result(of.sites().size());
+    for (std::size_t s = 0; s < result.size(); ++s)
+        result[s] = light_at(of, of.sites()[s], light) * reflectance;
     return result;
+}
+
+void ShapeSolver::solve_part(const LazyPart& part, std::span<const Lanes> light, double tolerance,
+                             std::span<Lanes> of_sites, std::span<Lanes> of_vertex_sites) const {
+    const auto& vertices = part.part.vertices;
+    const bool is_lit = std::any_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) {
+        return std::any_of(std::begin(light[v].v), std::end(light[v].v), [](float e) { return e != 0; });
+    });
+    const std::vector<std::uint32_t>& sites = part.part.sites;
+    std::vector<Lanes> out(sites.size());
+    if (is_lit) {
+        const PartSolver& solver = solver_of(part);
+        const PartField field = solver.solve(light, tolerance);
+        solver.exitance(field, light, out, 1);
+        if (!of_vertex_sites.empty()) {
+            const VertexRows& rows = vertex_rows(part);
+            std::vector<Lanes> found(rows.sites.size());
+            PartSolver::exitance(rows.flight, field, light, found, 1);
+            for (std::size_t i = 0; i < found.size(); ++i) of_vertex_sites[rows.sites[i]] = found[i];
+        }
+    }
+    for (std::size_t i = 0; i < out.size(); ++i) of_sites[sites[i]] = out[i];
+}
+
+SiteLight ShapeSolver::solve(std::span<const Lanes> light, double tolerance, int reentries,
+                             const Lanes& on_the_way) const {
+    SiteLight result;
+    std::vector<Lanes> entering(light.begin(), light.end());
+    for (int pass = 0;; ++pass) {
+        const std::vector<Lanes> reflected = half_space(sites_, entering);
+        std::vector<Lanes> exitance = reflected;
+        // What falls on skin again comes from all vertices.
+        const bool goes_on = pass < reentries;
+        const bool has_points = !sites_.are_vertices();
+        std::vector<Lanes> of_vertices;
+        if (goes_on && has_points) of_vertices = half_space(vertex_sites(), entering);
+        const auto work = [&](std::size_t begin, std::size_t end) {
+            for (std::size_t p = begin; p < end; ++p)
+                solve_part(*parts_[p], entering, tolerance, exitance, of_vertices);
+        };
+        for_each_block(parts_.size(), options_.threads, work, {}, 1);
+        if (pass == 0) {
+            result = {exitance, reflected};
+        } else {
+            for (std::size_t s = 0; s < exitance.size(); ++s) {
+                result.exitance[s] += exitance[s];
+                result.reflected[s] += reflected[s];
+            }
+        }
+        if (!goes_on) return result;
+        const std::vector<Lanes>& from = has_points ? of_vertices : exitance;
+        std::vector<Lanes> leaving(entering.size());
+        for (std::size_t v = 0; v < leaving.size(); ++v) leaving[v] = from[vertex_sites().site_of()[v]];
+        entering = reentry().irradiance(leaving, options_.threads);
+        for (Lanes& e : entering) e = e * on_the_way;
+    }
 }
 
 std::size_t ShapeSolver::bytes() const {
     std::size_t sum = 0;
-    for (const auto& part : parts_) {
-        if (const PartSolver* solver = part->ready()) sum += solver->bytes();
-    }
+    for (const auto& part : parts_) sum += part->bytes();
+    if (const Reentry* rows = reentry_.ready()) sum += rows->bytes();
     return sum;
 }
 

@@ -2,12 +2,11 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <vector>
 
-#include "shape/part_solver.h"
-#include "shape/thin_parts.h"
+#include "shape/lazy_part.h"
+#include "shape/reentry.h"
 
 namespace skinglow::detail {
 
@@ -18,32 +17,10 @@ struct SolverOptions {
     int threads = 0;
 };
 
-/// A thin part, made ready when light first falls on it.
-class LazyPart {
-  public:
-    explicit LazyPart(ThinPart part) : part_(std::move(part)) {}
-    const ThinPart& part() const { return part_; }
-    /// The solver; made by the first call.
-    template <typename Make>
-    const PartSolver& solver(const Make& make) const {
-        std::call_once(made_, [&] {
-            auto made = make(part_);
-            const std::lock_guard lock(access_);
-            solver_ = std::move(made);
-        });
-        return *solver_;
-    }
-    /// The solver, or none where it was not made yet.
-    const PartSolver* ready() const {
-        const std::lock_guard lock(access_);
-        return solver_.get();
-    }
-
-  private:
-    ThinPart part_;
-    mutable std::once_flag made_;
-    mutable std::mutex access_;
-    mutable std::unique_ptr<const PartSolver> solver_;
+/// Exitance of sites, node by node.
+struct SiteLight {
+    std::vector<Lanes> exitance;
+    std::vector<Lanes> reflected;  ///< what a half-space would send out under the irradiance of the site
 };
 
 /// The flesh of a mesh of one medium: from irradiance at its vertices to exitance at its sites, node by node.
@@ -60,20 +37,32 @@ class ShapeSolver {
     ShapeSolver& operator=(const ShapeSolver&) = delete;
 
     /// Exitance of all sites. Where the flesh is thick it is that of a half-space under the same irradiance.
-    /// @param light  one per vertex of the mesh given
-    std::vector<Lanes> exitance(std::span<const Lanes> light, double tolerance) const;
+    /// @param light       one per vertex of the mesh given
+    /// @param reentries   how often light that leaves skin enters skin again
+    /// @param on_the_way  what is left of it then, by what covers the medium
+    SiteLight solve(std::span<const Lanes> light, double tolerance, int reentries = 0,
+                    const Lanes& on_the_way = Lanes::all(1)) const;
+
+    /// Vertices whose irradiance matters to the sites, not 0.
+    /// @param reentries  whether light that enters skin again counts
+    std::vector<std::uint8_t> wanted_vertices(bool reentries) const;
 
     const Body& body() const { return body_; }
+    const FleshSurface& surface() const { return surface_; }
     const SurfaceSites& sites() const { return sites_; }
-    const std::vector<float>& thickness() const { return thickness_; }
+    const SurfaceSites& vertex_sites() const;
     const std::vector<std::unique_ptr<LazyPart>>& parts() const { return parts_; }
     const LaneMedium& medium() const { return medium_; }
-    double margin() const { return margin_; }
     std::size_t bytes() const;
 
   private:
     const PartSolver& solver_of(const LazyPart& part) const;
-    Lanes light_at(const Site& site, std::span<const Lanes> light) const;
+    const VertexRows& vertex_rows(const LazyPart& part) const;
+    const Reentry& reentry() const;
+    Lanes light_at(const SurfaceSites& of, const Site& site, std::span<const Lanes> light) const;
+    std::vector<Lanes> half_space(const SurfaceSites& of, std::span<const Lanes> light) const;
+    void solve_part(const LazyPart& part, std::span<const Lanes> light, double tolerance,
+                    std::span<Lanes> of_sites, std::span<Lanes> of_vertex_sites) const;
 
     SolverOptions options_;
     Body body_;
@@ -81,8 +70,10 @@ class ShapeSolver {
     SurfaceSites sites_;
     LaneMedium medium_;
     double margin_;
-    std::vector<float> thickness_;
     std::vector<std::unique_ptr<LazyPart>> parts_;
+    std::vector<std::uint8_t> is_thin_;  ///< one per site
+    Lazy<SurfaceSites> vertex_sites_;    ///< where the sites are points
+    Lazy<Reentry> reentry_;
 };
 
 }  // namespace skinglow::detail

@@ -37,8 +37,8 @@ class NodeInterpolation {
 /// A polynomial may swing between nodes that differ by orders of magnitude: it stays between its neighbors.
 double value_of(const SpectralSample& sample, std::span<const double> at_nodes);
 
-/// How wavelengths come about from the nodes. Those that stand alike to the nodes follow each other, a run, and
-/// runs begin at multiples of a vector's length; between them are samples of no effect.
+/// How wavelengths come about from the nodes. Those that stand alike to the nodes follow each other, a run,
+/// and runs begin at multiples of a vector's length; between them are samples of no effect.
 struct SpectralSamples {
     static constexpr std::size_t alignment = 16;  ///< samples; no vector holds more
 
@@ -49,8 +49,8 @@ struct SpectralSamples {
     };
     std::vector<Run> runs;
     std::size_t size = 0;
-    /// For each node its weight by sample, then for each of 9 entries of the matrix, column by column, what the
-    /// sample contributes where exitance is 1, times the epidermis' factor: rows of `size`.
+    /// For each node its weight by sample, then for each of 9 entries of the matrix, column by column, what
+    /// the sample contributes where exitance is 1, times the epidermis' factor: rows of `size`.
     std::vector<float> rows;
 };
 

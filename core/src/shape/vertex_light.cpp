@@ -1,0 +1,148 @@
+#include "shape/vertex_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "geometry/vector.h"
+#include "numerics/parallel_blocks.h"
+#include "radiometry/spherical_harmonics.h"
+#include "rays/direction_sampling.h"
+#include "rays/occluder_scene.h"
+#include "rays/visible_fraction.h"
+
+namespace skinglow::detail {
+namespace {
+
+/// Relative error of the irradiance of one light.
+constexpr double area_tolerance = 1e-4;
+/// Rays that tell whether a vertex lies in a penumbra; one to a light seen under less than narrow.
+constexpr int first_samples = 4;
+constexpr double narrow = 0.03;  ///< sine of the angular radius
+/// Rays to the world.
+constexpr int sky_rays = 64;
+/// Shadow rays begin this far outside, mm, or a small part of the body's size.
+constexpr float lift_mm = 0.02F;
+/// Of a vertex that does not receive light.
+constexpr float no_light = -1;
+constexpr std::size_t block = 256;
+
+bool is_narrow(const PreparedLight& light, const glm::dvec3& point) {
+    if (light.kind() == LightKind::sun) return light.sin_sun_radius() < narrow;
+    const double distance = light.distance(point);
+    if (light.kind() == LightKind::area) return light.area_scale() < narrow * distance;
+    return light.ball_term(distance).sin_radius < narrow;
+}
+
+}  // namespace
+
+VertexLight::VertexLight(const FleshSurface& surface, std::span<const glm::dvec3> vertices,
+                         const SurfaceSites& sites, double unit_mm, std::span<const std::uint8_t> wanted,
+                         const ShadowOptions& options)
+    : surface_(surface), vertices_(vertices), sites_(sites), unit_mm_(unit_mm), options_(options) {
+    for (std::uint32_t v = 0; v < wanted.size(); ++v) {
+        if (wanted[v] != 0) wanted_.push_back(v);
+    }
+    if (options.occluders != nullptr) excluded_ = options.occluders->scene().triangles_of(options.excluded);
+}
+
+VertexLight::Place VertexLight::place_of(std::uint32_t vertex) const {
+    const Site& site = sites_.sites()[sites_.site_of()[vertex]];
+    const float lift = std::max(lift_mm, 4 * surface_.gap());
+    const glm::dvec3 normal(site.normal);
+    const double size = glm::length(normal);
+    return {vertices_[vertex], site.position + site.normal * lift,
+            size > 0 ? normal / size : glm::dvec3(0.0)};
+}
+
+bool VertexLight::sees(const Place& place, const glm::dvec3& direction, double distance) const {
+    const double mm = std::min(distance * unit_mm_, static_cast<double>(std::numeric_limits<float>::max()));
+    if (surface_.blocks(place.origin, direction, static_cast<float>(mm))) return false;
+    return options_.occluders == nullptr ||
+           !options_.occluders->scene().occluded(place.point, direction, distance, excluded_);
+}
+
+double VertexLight::fraction(const RigLight& light, const Place& place, std::uint32_t vertex,
+                             int samples) const {
+    return visible_fraction_at(
+        light.light, place.point, place.normal, vertex, samples,
+        [&](const LightSample& ray) { return sees(place, ray.direction, ray.distance); });
+}
+
+std::vector<std::uint8_t> VertexLight::doubtful(std::span<const float> fraction) const {
+    std::vector<std::uint8_t> result(fraction.size(), 0);
+    for (const BodyTriangle& t : surface_.body().triangles()) {
+        float low = 2;
+        float high = -1;
+        for (int k = 0; k < 3; ++k) {
+            const float f = fraction[t.corners[k]];
+            if (f == no_light) continue;
+            low = std::min(low, f);
+            high = std::max(high, f);
+        }
+        if (high <= low && (high == 0 || high == 1)) continue;
+        for (int k = 0; k < 3; ++k) result[t.corners[k]] = 1;
+    }
+    return result;
+}
+
+std::vector<float> VertexLight::of_light(const RigLight& light) const {
+    std::vector<float> seen(vertices_.size(), no_light);
+    std::vector<float> irradiance(vertices_.size(), 0.0F);
+    if (!light.shines) return irradiance;
+    const auto first = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t v = wanted_[i];
+            const Place place = place_of(v);
+            if (place.normal == glm::dvec3(0.0)) continue;
+            const double open = light.light.irradiance(place.point, place.normal, area_tolerance);
+            if (!(open > 0)) continue;
+            irradiance[v] = static_cast<float>(open * light.power);
+            const int samples = is_narrow(light.light, place.point) ? 1 : first_samples;
+            seen[v] = static_cast<float>(fraction(light, place, v, std::min(samples, options_.samples)));
+        }
+    };
+    for_each_block(wanted_.size(), options_.threads, first, {}, block);
+    const std::vector<std::uint8_t> again = doubtful(seen);
+    const auto second = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t v = wanted_[i];
+            if (seen[v] == no_light) continue;
+            if (again[v] != 0)
+                seen[v] = static_cast<float>(fraction(light, place_of(v), v, options_.samples));
+            irradiance[v] *= seen[v];
+        }
+    };
+    for_each_block(wanted_.size(), options_.threads, second, {}, block);
+    return irradiance;
+}
+
+std::vector<glm::vec3> VertexLight::of_environment(const Environment& environment) const {
+    const auto directions = cosine_directions(sky_rays);
+    std::vector<glm::vec3> result(vertices_.size(), glm::vec3(0.0F));
+    const auto work = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Place place = place_of(wanted_[i]);
+            if (place.normal == glm::dvec3(0.0)) continue;
+            const glm::dmat3 frame = frame_around(place.normal);
+            // The harmonics' sum over all rays is not exactly their integral: only what is hidden is summed.
+            glm::dvec3 hidden(0.0);
+            for (const glm::dvec3& local : directions) {
+                const glm::dvec3 direction = frame * local;
+                if (sees(place, direction, std::numeric_limits<double>::infinity())) continue;
+                const auto harmonics = spherical_harmonics(direction);
+                for (std::size_t k = 0; k < 9; ++k) hidden += environment.coefficients()[k] * harmonics[k];
+            }
+            const glm::dvec3 open = environment.irradiance(place.normal);
+            const glm::dvec3 lost = hidden * (std::numbers::pi / sky_rays);
+            result[wanted_[i]] = glm::clamp(open - lost, glm::dvec3(0.0), open);
+        }
+    };
+    for_each_block(wanted_.size(), options_.threads, work, {}, block);
+    return result;
+}
+
+}  // namespace skinglow::detail

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <skinglow/environment.h>
+#include <skinglow/occlusion.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rig/rig_data.h"
+#include "shape/flesh_surface.h"
+#include "shape/surface_sites.h"
+
+namespace skinglow::detail {
+
+/// What stands around a body, and how closely shadows are looked at.
+struct ShadowOptions {
+    const Occluders* occluders = nullptr;    ///< none: the body alone casts shadows
+    std::vector<std::size_t> excluded = {};  ///< meshes of it that do not count
+    int samples = 16;                        ///< rays to a light that has an extent, in its penumbra
+    int threads = 0;
+};
+
+/// Irradiance at the vertices of a body, with the shadows of the body itself and of what stands around it.
+class VertexLight {
+  public:
+    /// @param vertices  as given, world; `sites` are theirs
+    /// @param unit_mm   length of one unit of them, mm
+    /// @param wanted    one per vertex, not 0 where the irradiance matters
+    VertexLight(const FleshSurface& surface, std::span<const glm::dvec3> vertices, const SurfaceSites& sites,
+                double unit_mm, std::span<const std::uint8_t> wanted, const ShadowOptions& options);
+
+    /// Of one light whose color is white, W/m^2; 0 at vertices that are not wanted. First a few rays go to
+    /// each vertex; where they or those of a neighbor disagree, all of them.
+    std::vector<float> of_light(const RigLight& light) const;
+
+    /// Of the world: by rays that follow the cosine, with the radiance of the nine harmonics along those that
+    /// nothing stops.
+    std::vector<glm::vec3> of_environment(const Environment& environment) const;
+
+  private:
+    struct Place {
+        glm::dvec3 point;   ///< world
+        glm::vec3 origin;   ///< where rays begin, mm about the body's center
+        glm::dvec3 normal;  ///< unit; 0: receives nothing
+    };
+    Place place_of(std::uint32_t vertex) const;
+    bool sees(const Place& place, const glm::dvec3& direction, double distance) const;
+    double fraction(const RigLight& light, const Place& place, std::uint32_t vertex, int samples) const;
+    std::vector<std::uint8_t> doubtful(std::span<const float> fraction) const;
+
+    const FleshSurface& surface_;
+    std::span<const glm::dvec3> vertices_;
+    const SurfaceSites& sites_;
+    double unit_mm_;
+    std::vector<std::uint32_t> wanted_;
+    ShadowOptions options_;
+    std::vector<TriangleRange> excluded_;
+};
+
+}  // namespace skinglow::detail
