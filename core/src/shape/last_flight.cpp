@@ -54,6 +54,7 @@ class FlightTracer {
           fluence_(grid.size() + ghosts.of_modes.rows()),
           light_(body_.welded_of().size()),
           index_n_(medium[0].refractive_index),
+          escaping_(static_cast<float>(1 / (index_n_ * index_n_))),
           inside_reflectance_(static_cast<float>(medium[0].inside_reflectance)),
           transmittance_(static_cast<float>(medium[0].transmittance)),
           extinction_(medium.lanes([](const Sp3Medium& m) { return m.extinction; })),
@@ -79,8 +80,8 @@ class FlightTracer {
             Ray ray = site.pieces == 0 ? from_point(site) : from_vertex(pieces, area, x);
             // From a point the even coordinate is free, and goes with the one of the golden ratio.
             const float turn = static_cast<float>(r) * 0.618034F + lattice.at(0)[1];
-            ray.direction = site.pieces == 0 ? cosine_direction(-ray.normal, x[0], turn - std::floor(turn))
-                                             : cosine_direction(-ray.normal, x[3], x[4]);
+            ray.direction = site.pieces == 0 ? cosine_direction(-ray.normal, escaping_ * x[0], turn - std::floor(turn))
+                                             : cosine_direction(-ray.normal, escaping_ * x[3], x[4]);
             follow(ray, 131 * static_cast<std::uint64_t>(index) + static_cast<std::uint64_t>(r));
         }
         store(index, rows);
@@ -123,7 +124,7 @@ class FlightTracer {
 
     void follow(Ray ray, std::uint64_t seed) {
         Lanes weight = Lanes::all(1 - inside_reflectance_);
-        if (index_n_ > 1) weight = weight * (1 - fresnel(ray.direction, ray.normal));
+        if (index_n_ > 1) weight = weight * (escaping_ * (1 - fresnel(ray.direction, ray.normal)));
         for (int bounce = 0; bounce < max_bounces; ++bounce) {
             const auto hit = surface_.nearest(ray.origin, ray.direction, 0.0F);
             const float length = hit ? hit->distance : std::numeric_limits<float>::infinity();
@@ -247,6 +248,7 @@ class FlightTracer {
     RowSums<Lanes> fluence_;
     RowSums<Lanes> light_;
     double index_n_;
+    float escaping_;  ///< of cosine-distributed rays, those that a smooth surface does not reflect totally
     float inside_reflectance_;
     float transmittance_;
     Lanes extinction_;
