@@ -115,7 +115,7 @@ TEST(PovrayLights, AreFiniteForAnyLightThatIsAllowed) {
     };
     int written = 0;
     int refused = 0;
-    for (int round = 0; round < 4000; ++round) {
+    for (int round = 0; round < 5000; ++round) {
         PovrayScene scene = triangle();
         scene.surface = PovraySurface{};
         FlatLight light;

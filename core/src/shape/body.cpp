@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <utility>
 
 #include "geometry/vector.h"
@@ -14,6 +13,9 @@
 
 namespace skinglow::detail {
 namespace {
+
+/// Ten kilometers: single precision has a millimeter left there.
+constexpr double max_radius_mm = 1e7;
 
 /// The corners with the least first, in the order of the winding; and whether the winding is that of the
 /// sorted corners, which tells a triangle from its mirror image.
@@ -71,9 +73,9 @@ Body::Body(const MeshView& mesh, double unit_mm) : unit_mm_(unit_mm) {
     const auto given = mesh.vertices();
     const auto box = box_of(std::span(&mesh, 1));
     if (box) origin_ = box->center();
-    if (box && !(box->radius() * unit_mm < 0.1 * std::numeric_limits<float>::max())) {
-        refuse_argument("vertices", to_text(box->radius() * unit_mm) + " mm across",
-                        "a mesh whose size single precision can hold");
+    if (box && !(box->radius() * unit_mm <= max_radius_mm)) {
+        refuse_argument("vertices", to_text(box->radius() * unit_mm) + " mm from their center",
+                        "up to 1e7 mm: is unit_mm right?");
     }
     Weld weld = detail::weld(given);
     positions_.reserve(weld.first.size());

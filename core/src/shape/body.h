@@ -26,7 +26,7 @@ struct BodyTriangle {
 class Body {
   public:
     /// @param unit_mm  length of one unit of the mesh, mm, above 0
-    /// @throws std::invalid_argument where the extent is beyond the largest float
+    /// @throws std::invalid_argument where the extent is beyond ten kilometers
     Body(const MeshView& mesh, double unit_mm);
 
     /// One per welded vertex, mm.

@@ -161,6 +161,14 @@ class FlightTracer {
         return x < 1e-2F ? 0.5F * step : step * (1 / x - 1 / std::expm1(x));
     }
 
+    /// Whether some of eight cells may be beyond air.
+    bool is_beside_gap(const std::array<std::int32_t, 8>& cells) const {
+        return std::any_of(cells.begin(), cells.end(), [&](std::int32_t c) {
+            return c >= 0 && c < static_cast<std::int32_t>(grid_.size()) &&
+                   grid_.beside_gap(static_cast<std::uint32_t>(c));
+        });
+    }
+
     /// Linear interpolation between cells lies above a field that obeys laplace psi = decay^2 psi; by how
     /// much in the mean over directions, for the mode that reaches far.
     Lanes interpolation_factor(const glm::vec3& f) const {
@@ -192,6 +200,20 @@ class FlightTracer {
                                       : ((c & 4) != 0 ? f.x : 1 - f.x) * ((c & 2) != 0 ? f.y : 1 - f.y) *
                                             ((c & 1) != 0 ? f.z : 1 - f.z);
                 sum += part[i];
+            }
+            if (is_beside_gap(cell)) {
+                sum = 0;
+                const glm::vec3 point = (at + 0.5F) * grid_.cell() + grid_.low();
+                for (int c = 0; c < 8; ++c) {
+                    const auto i = static_cast<std::size_t>(c);
+                    if (part[i] == 0) continue;
+                    const glm::vec3 corner_center =
+                        grid_.center_of(place + glm::ivec3(c >> 2, (c >> 1) & 1, c & 1));
+                    if (cell[i] < static_cast<std::int32_t>(grid_.size()) &&
+                        surface_.separates(point, corner_center))
+                        part[i] = 0;
+                    sum += part[i];
+                }
             }
             const Lanes deposit = (weight - left) * interpolation_factor(f);
             weight = left;

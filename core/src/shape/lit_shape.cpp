@@ -16,8 +16,8 @@ namespace detail {
 
 /// Exitance of each site by light, of white light, and by the world.
 struct LightMatrices {
-    std::vector<std::vector<glm::mat3>> lights;  ///< empty for one that gives nothing
-    std::vector<glm::dvec3> world;               ///< empty without one
+    std::vector<ShapeData::Matrices> lights;  ///< empty for one that gives nothing
+    ShapeData::Colors world;                  ///< empty without one
 };
 
 /// What a lit shape holds.
@@ -44,7 +44,9 @@ struct LitShapeData {
                               shape->options.threads}};
     }
     const LightMatrices& by_light() const;
-    std::vector<glm::dvec3> sum(std::span<const glm::dvec3> colors) const;
+    std::vector<glm::dvec3> sum(std::span<const glm::dvec3> colors,
+                                std::vector<glm::mat3> ShapeData::Matrices::*of,
+                                std::span<const glm::dvec3> world) const;
 };
 
 const LightMatrices& LitShapeData::by_light() const {
@@ -60,28 +62,27 @@ const LightMatrices& LitShapeData::by_light() const {
         if (environment) {
             const std::vector<glm::vec3> world = light.of_environment(*environment);
             const std::vector<glm::dvec3> irradiance_of_world(world.begin(), world.end());
-            result.world = shape->solve(irradiance_of_world, options.reentries).exitance;
+            result.world = shape->solve(irradiance_of_world, options.reentries);
         }
         return result;
     });
 }
 
-/// Sum over the lights at the sites, of lights of these colors.
-std::vector<glm::dvec3> LitShapeData::sum(std::span<const glm::dvec3> colors) const {
-    const LightMatrices& all = by_light();
+/// Sum over the lights at the sites, of lights of these colors, and the world.
+/// @param of     the matrices of a light
+/// @param world  of each site; may be empty
+std::vector<glm::dvec3> LitShapeData::sum(std::span<const glm::dvec3> colors,
+                                          std::vector<glm::mat3> ShapeData::Matrices::*of,
+                                          std::span<const glm::dvec3> world) const {
     const std::size_t sites = shape->solver.sites().sites().size();
     std::vector<glm::vec3> result(sites, glm::vec3(0.0F));
-    if (!all.world.empty()) std::copy(all.world.begin(), all.world.end(), result.begin());
-    for (std::size_t k = 0; k < all.lights.size(); ++k) {
-        if (all.lights[k].empty()) continue;
+    std::copy(world.begin(), world.end(), result.begin());
+    for (std::size_t k = 0; k < colors.size(); ++k) {
+        const std::vector<glm::mat3>& matrices_of = by_light().lights[k].*of;
         const glm::vec3 color = colors[k];
-        if (shape->spectrum) {
-            for (std::size_t s = 0; s < sites; ++s) result[s] += all.lights[k][s] * color;
-        } else {
-            for (std::size_t s = 0; s < sites; ++s) {
-                const glm::mat3& m = all.lights[k][s];
-                result[s] += glm::vec3(m[0][0], m[1][1], m[2][2]) * color;
-            }
+        for (std::size_t s = 0; s < matrices_of.size(); ++s) {
+            const glm::mat3& m = matrices_of[s];
+            result[s] += shape->spectrum ? m * color : glm::vec3(m[0][0], m[1][1], m[2][2]) * color;
         }
     }
     std::vector<glm::dvec3> exact(sites);
@@ -95,6 +96,8 @@ namespace {
 
 /// Lights beyond this number are left out where all together bring less than this part of the light.
 constexpr std::size_t many_lights = 32;
+/// No more lights than channels.
+constexpr std::size_t few_lights = 3;
 constexpr double negligible = 1e-3;
 constexpr std::size_t probes = 64;
 constexpr int max_reentries = 8;
@@ -164,7 +167,17 @@ LitShape Shape::light(const PreparedRig& rig, const ShapeLightOptions& options) 
         const std::vector<glm::vec3> world = vertex_light.of_environment(*data->environment);
         for (std::size_t v = 0; v < world.size(); ++v) irradiance[v] += glm::dvec3(world[v]);
     }
-    ShapeData::Colors colors = data_->solve(irradiance, options.reentries);
+    ShapeData::Colors colors;
+    if (data_->spectrum && rig.size() <= few_lights) {
+        // Spectra of different lights are better put together one by one, and few are as fast that way.
+        std::vector<glm::dvec3> own;
+        for (const RigLight& one : rig.data().prepared) own.push_back(one.color);
+        const LightMatrices& by_light = data->by_light();
+        colors.exitance = data->sum(own, &ShapeData::Matrices::exitance, by_light.world.exitance);
+        colors.reflected = data->sum(own, &ShapeData::Matrices::reflected, by_light.world.reflected);
+    } else {
+        colors = data_->solve(irradiance, options.reentries);
+    }
     for (std::size_t s = 0; s < colors.exitance.size(); ++s)
         colors.reflected[s] = glm::max(colors.exitance[s] - colors.reflected[s], glm::dvec3(0.0));
     data->exitance = at_points(colors.exitance, *data_);
@@ -197,9 +210,12 @@ std::vector<glm::dvec3> LitShape::per_light() const {
     std::vector<glm::dvec3> result(lights() * points, glm::dvec3(0.0));
     const auto& site_of = data_->shape->solver.sites().site_of();
     for (std::size_t k = 0; k < lights(); ++k) {
-        if (all.lights[k].empty()) continue;
+        const std::vector<glm::mat3>& matrices = all.lights[k].exitance;
+        if (matrices.empty()) continue;
         const glm::vec3 color = data_->rig.data().prepared[k].color;
-        for (std::size_t i = 0; i < points; ++i) result[k * points + i] = all.lights[k][site_of[i]] * color;
+        for (std::size_t i = 0; i < points; ++i) {
+            result[k * points + i] = glm::max(matrices[site_of[i]] * color, glm::vec3(0.0F));
+        }
     }
     return result;
 }
@@ -210,7 +226,8 @@ std::vector<glm::dvec3> LitShape::recolor(std::span<const glm::dvec3> colors) co
                         "one for each of " + std::to_string(lights()) + " lights");
     }
     for (std::size_t k = 0; k < colors.size(); ++k) require_not_negative(entry_name("colors", k), colors[k]);
-    return at_points(data_->sum(colors), *data_->shape);
+    const ShapeData::Colors& world = data_->by_light().world;
+    return at_points(data_->sum(colors, &ShapeData::Matrices::exitance, world.exitance), *data_->shape);
 }
 
 }  // namespace skinglow

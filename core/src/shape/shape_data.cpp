@@ -83,15 +83,19 @@ ShapeData::Colors ShapeData::solve(std::span<const glm::dvec3> irradiance, int r
     return colors;
 }
 
-std::vector<glm::mat3> ShapeData::matrices(std::span<const float> irradiance, int reentries) const {
+ShapeData::Matrices ShapeData::matrices(std::span<const float> irradiance, int reentries) const {
     std::vector<Lanes> light(irradiance.size());
     std::transform(irradiance.begin(), irradiance.end(), light.begin(), Lanes::all);
     const SiteLight found = solver.solve(light, tolerance, reentries, on_the_way());
-    std::vector<glm::mat3> result(found.exitance.size());
+    Matrices result{std::vector<glm::mat3>(found.exitance.size()),
+                    std::vector<glm::mat3>(found.exitance.size())};
     const auto work = [&](std::size_t begin, std::size_t end) {
-        for (std::size_t s = begin; s < end; ++s) result[s] = glm::mat3(combine(found.exitance[s]));
+        for (std::size_t s = begin; s < end; ++s) {
+            result.exitance[s] = glm::mat3(combine(found.exitance[s]));
+            result.reflected[s] = glm::mat3(combine(found.reflected[s]));
+        }
     };
-    for_each_block(result.size(), options.threads, work, {}, sites_per_block);
+    for_each_block(result.exitance.size(), options.threads, work, {}, sites_per_block);
     return result;
 }
 

@@ -23,8 +23,13 @@ struct ShapeData {
     /// @param irradiance  one per vertex
     Colors solve(std::span<const glm::dvec3> irradiance, int reentries) const;
 
-    /// The matrix of each site from the irradiance of white light at the vertices.
-    std::vector<glm::mat3> matrices(std::span<const float> irradiance, int reentries) const;
+    /// The matrix of each site from the irradiance of white light at the vertices, and that of what a
+    /// half-space has of it.
+    struct Matrices {
+        std::vector<glm::mat3> exitance;
+        std::vector<glm::mat3> reflected;
+    };
+    Matrices matrices(std::span<const float> irradiance, int reentries) const;
 
     /// What the epidermis lets through of light that leaves skin and enters again, by node.
     Lanes on_the_way() const;

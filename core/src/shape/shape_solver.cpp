@@ -11,6 +11,16 @@ namespace {
 /// Flesh about a thin site counts up to this many lengths over which the least absorbed light falls to 1/e.
 constexpr double margin_in_decays = 2;
 constexpr double margin_in_cells = 4;
+/// Cells through the thin places of a part, at least; down to a part of the cell that is asked for.
+constexpr double cells_through = 1.2;
+constexpr double finest_of_wanted = 0.05;
+/// And so many where cells would be larger than skin asks for.
+constexpr double coarsest_cells_through = 6;
+constexpr double ordinary_cell_mm = 0.8;
+/// Places of a grid's box, for memory's sake.
+constexpr double max_places = 6e7;
+/// Flesh in which light falls by this many powers of e within a cell is a half-space.
+constexpr double opaque = 3;
 /// Rays from a vertex whose exitance is only wanted as light for others.
 constexpr int reentry_rays = 32;
 
@@ -19,6 +29,17 @@ double margin_of(const LaneMedium& medium, const SolverOptions& options) {
     const double wanted = decay * options.max_thickness_mm > margin_in_decays ? margin_in_decays / decay
                                                                               : options.max_thickness_mm;
     return std::max(wanted, margin_in_cells * options.cell_mm);
+}
+
+/// The cell of a part: no larger than what most of it is thick, and no smaller than its box can hold.
+double cell_of(const ThinPart& part, const SurfaceSites& sites, double margin, double wanted) {
+    std::vector<glm::vec3> centers;
+    for (const std::uint32_t s : part.sites) centers.push_back(sites.sites()[s].position);
+    const double coarsest = std::max(part.thin_mm / coarsest_cells_through, ordinary_cell_mm);
+    const double thin = std::max(part.thin_mm / cells_through, finest_of_wanted * wanted);
+    double cell = std::min({wanted, thin, coarsest});
+    while (box_places(centers, margin, cell) > max_places) cell *= 1.1;
+    return cell;
 }
 
 SurfaceSites make_sites(const Body& body, const TriangleTree& tree, std::span<const glm::dvec3> points,
@@ -60,7 +81,7 @@ const SurfaceSites& ShapeSolver::vertex_sites() const {
 
 const PartSolver& ShapeSolver::solver_of(const LazyPart& part) const {
     return part.solver.get([&] {
-        const PartOptions options{options_.cell_mm,
+        const PartOptions options{cell_of(part.part, sites_, margin_, options_.cell_mm),
                                   margin_,
                                   options_.threads,
                                   !sites_.are_vertices(),
@@ -154,7 +175,14 @@ void ShapeSolver::solve_part(const LazyPart& part, std::span<const Lanes> light,
             for (std::size_t i = 0; i < found.size(); ++i) of_vertex_sites[rows.sites[i]] = found[i];
         }
     }
-    for (std::size_t i = 0; i < out.size(); ++i) of_sites[sites[i]] = out[i];
+    const Lanes is_solved = medium_.lanes([&](const Sp3Medium& m) {
+        const double cell = is_lit ? solver_of(part).cell() : 0.0;
+        return m.decay[0] * cell > opaque ? 0.0 : 1.0;
+    });
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        Lanes& of_site = of_sites[sites[i]];
+        of_site = of_site * (Lanes::all(1) - is_solved) + out[i] * is_solved;
+    }
 }
 
 SiteLight ShapeSolver::solve(std::span<const Lanes> light, double tolerance, int reentries,

@@ -18,6 +18,7 @@ namespace skinglow::detail {
 namespace {
 
 constexpr int thickness_rays = 9;
+constexpr int rays_below = 3;  ///< that are shorter than the thickness: light takes the short ways
 constexpr double cone_half_angle = 25 * std::numbers::pi / 180;
 
 /// Sites by cubes of space.
@@ -68,8 +69,8 @@ std::vector<float> site_thickness(const FleshSurface& surface, const SurfaceSite
                 const auto hit = surface.nearest(origin, frame * directions[r], 0.0F);
                 lengths[r] = hit ? hit->distance : std::numeric_limits<float>::infinity();
             }
-            std::nth_element(lengths.begin(), lengths.begin() + thickness_rays / 2, lengths.end());
-            thickness[i] = lengths[thickness_rays / 2];
+            std::nth_element(lengths.begin(), lengths.begin() + rays_below, lengths.end());
+            thickness[i] = lengths[rays_below];
         }
     };
     for_each_block(thickness.size(), threads, work, done, 512);
@@ -111,6 +112,11 @@ std::vector<ThinPart> thin_parts(const Body& body, const SurfaceSites& sites,
             });
         }
         std::sort(part.sites.begin(), part.sites.end());
+        std::vector<float> sorted;
+        for (const std::uint32_t i : part.sites) sorted.push_back(thickness[i]);
+        const auto twentieth = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 20);
+        std::nth_element(sorted.begin(), twentieth, sorted.end());
+        part.thin_mm = static_cast<double>(*twentieth);
         std::sort(part.vertices.begin(), part.vertices.end());
         part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()), part.vertices.end());
         parts.push_back(std::move(part));
