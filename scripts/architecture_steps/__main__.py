@@ -22,7 +22,14 @@ ROOT = Path(__file__).parents[2]
 CORE = ROOT / "core"
 WIDTH, HEIGHT, PAD = 2.3, 0.6, 0.06  #: of a box
 #: Targets of their own; the other folders make up skinglow_core.
-OWN_TARGETS = {"rays": "#e8c39e", "shape": "#e8c39e", "povray": "#e8c39e", "rig_files": "#e8c39e", "files": "#e8c39e", "cli": "#d9a5a0"}
+OWN_TARGETS = {
+    "rays": "#e8c39e",
+    "shape": "#e8c39e",
+    "povray": "#e8c39e",
+    "rig_files": "#e8c39e",
+    "files": "#e8c39e",
+    "cli": "#d9a5a0",
+}
 CORE_COLOR = "#b9d3e6"
 
 

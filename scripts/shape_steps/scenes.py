@@ -37,6 +37,7 @@ class Case:
     medium: Medium
     refractive_index: float = 1.0
     surface: str = "rough"
+    is_solved_fine: bool = True  # with cells of 0.5 mm too
 
     @property
     def name(self) -> str:

@@ -52,6 +52,25 @@ void visit_neighborhood(Blocks& blocks, const glm::dvec3& key, const Visit& visi
     }
 }
 
+/// Sites that are thin, and those about them: a crease between thin flesh and thick is lit by the thin one however deep
+/// the flesh is below it. Not 0, one per site.
+std::vector<std::uint8_t> thin_and_about(const SurfaceSites& sites, const std::vector<float>& thickness,
+                                         double max_thickness, double margin, const glm::vec3& low) {
+    // About means in the same or a neighboring block: half the margin to all of it away.
+    Blocks thin(0.5 * margin, low);
+    for (std::uint32_t i = 0; i < thickness.size(); ++i) {
+        if (static_cast<double>(thickness[i]) < max_thickness) thin.add(sites.sites()[i].position, i);
+    }
+    std::vector<std::uint8_t> result(thickness.size(), 0);
+    for (std::uint32_t i = 0; i < thickness.size(); ++i) {
+        const Site& site = sites.sites()[i];
+        if (!site.on_surface) continue;
+        visit_neighborhood(thin, thin.key(site.position),
+                           [&](const glm::dvec3&, const std::vector<std::uint32_t>&) { result[i] = 1; });
+    }
+    return result;
+}
+
 }  // namespace
 
 std::vector<float> site_thickness(const FleshSurface& surface, const SurfaceSites& sites, int threads,
@@ -83,7 +102,8 @@ std::vector<ThinPart> thin_parts(const Body& body, const SurfaceSites& sites,
     for (const glm::vec3& p : body.positions()) low = glm::min(low, p);
     Blocks thin(margin, low);
     Blocks vertices(margin, low);
-    const auto is_thin = [&](std::size_t i) { return static_cast<double>(thickness[i]) < max_thickness; };
+    const std::vector<std::uint8_t> counts = thin_and_about(sites, thickness, max_thickness, margin, low);
+    const auto is_thin = [&](std::size_t i) { return counts[i] != 0; };
     for (std::uint32_t i = 0; i < thickness.size(); ++i) {
         if (is_thin(i)) thin.add(sites.sites()[i].position, i);
     }

@@ -1,0 +1,121 @@
+"""A shape under lights: what adds up, what recoloring does, light that enters skin again, shadows, lit skin."""
+
+import numpy as np
+import pytest
+import shape_bodies as bodies
+import skinglow as sg
+
+ABSORPTION, SCATTERING = (0.032, 0.17, 0.48), (0.74, 0.88, 1.01)
+METERS = 1e-3
+# What a tissue makes of light is interpolated in its logarithm: it adds up as well as that.
+TOLERANCE = np.array([0.03, 0.03, 0.08])
+LIGHTS = [
+    sg.Light("POINT", (1.0, 0.7, 0.4), (0.02, 0.03, 0.3), power=5.0, radius=0.01),
+    sg.Light("SUN", (0.2, 0.4, 1.0), direction=(0.3, 0.0, 1.0), power=1.0),
+    sg.Light("POINT", (0.5, 1.0, 0.5), (0.3, 0.0, -0.1), power=8.0),
+]
+
+
+def assert_close(found, expected):
+    """RMS over mean; single places, where one light is reflected and another comes through, may differ by more."""
+    error = np.sqrt(((found - expected) ** 2).mean(axis=0)) / expected.mean(axis=0)
+    assert (error < TOLERANCE).all(), error
+
+
+def shape(body, tissue=None, **options):
+    medium = {} if tissue else {"absorption": ABSORPTION, "reduced_scattering": SCATTERING, "refractive_index": 1.0}
+    return sg.Shape(body[0] * METERS, body[1], tissue, unit_mm=1000.0, **medium, **options)
+
+
+@pytest.fixture(scope="module")
+def lobe():
+    return bodies.lobe()
+
+
+@pytest.fixture(scope="module", params=[None, sg.Tissue()], ids=["channels", "tissue"])
+def made(request, lobe):
+    return shape(lobe, request.param)
+
+
+def test_lights_are_the_exitance_of_their_irradiance(made):
+    lit = made.light(LIGHTS, reentries=0)
+    assert_close(lit.exitance, made.exitance(lit.irradiance))
+
+
+def test_all_lights_together_are_the_sum_of_each(made):
+    lit = made.light(LIGHTS)
+    assert lit.per_light.shape == (3, len(made.points), 3)
+    assert_close(lit.per_light.sum(axis=0), lit.exitance)
+
+
+def test_recoloring_is_a_light_of_that_color(made):
+    colors = np.array([[0.1, 0.9, 0.3], [1.0, 1.0, 1.0], [0.0, 0.0, 0.0]])
+    changed = [
+        sg.Light(light.kind, tuple(color), light.position, light.direction, power=light.power, radius=light.radius)
+        for light, color in zip(LIGHTS, colors, strict=True)
+    ]
+    expected = made.light(changed).exitance
+    assert_close(made.light(LIGHTS).recolor(colors), expected)
+
+
+def test_no_lights_are_dark(made):
+    lit = made.light([])
+    assert not lit.exitance.any()
+    assert lit.per_light.shape == (0, len(made.points), 3)
+
+
+def test_a_convex_body_lights_itself_no_more():
+    ball = shape(bodies.ball(4.0))
+    once, again = (ball.light(LIGHTS[:1], reentries=n).exitance for n in (0, 2))
+    np.testing.assert_allclose(again, once, atol=1e-3 * once.max())
+
+
+def test_light_that_enters_again_brightens_a_hollow():
+    """Two balls that nearly touch: the dark one sees the lit one alone."""
+    lit, dark = bodies.ball(4.0, 3), bodies.ball(4.0, 3)
+    count = len(lit[0])
+    body = (np.concatenate([lit[0], dark[0] + [8.6, 0.0, 0.0]]), np.concatenate([lit[1], dark[1] + count]))
+    pair = shape(body)
+    light = [sg.Light("SUN", (1.0, 1.0, 1.0), direction=(1.0, 0.0, 0.0), power=1.0)]  # shines along +x
+    found = [pair.light(light, reentries=n).exitance[count:].mean(axis=0) for n in (0, 1, 2, 4)]
+    assert (found[1] > 2.0 * found[0] + 1e-6).all()
+    assert (found[2] >= found[1]).all()
+    # Each time there is much less.
+    assert (found[3] - found[2] < 0.3 * (found[2] - found[0]) + 1e-6).all()
+
+
+def test_the_world_alone_is_the_same_from_everywhere():
+    """In a white world a body that does not absorb sends back what it gets, wherever it is convex."""
+    body = bodies.ball(4.0)
+    white = sg.Shape(
+        body[0] * METERS,
+        body[1],
+        absorption=(0.0, 0.0, 0.0),
+        reduced_scattering=(1.0, 1.0, 1.0),
+        refractive_index=1.0,
+        unit_mm=1000.0,
+    )
+    lit = white.light([], sg.Environment((1.0, 1.0, 1.0)), reentries=0)
+    np.testing.assert_allclose(lit.irradiance, np.pi, rtol=0.02)
+    np.testing.assert_allclose(lit.exitance.mean(axis=0), np.pi, rtol=0.02)
+
+
+def test_other_objects_cast_shadows(made):
+    wall = np.array([[-1.0, -1.0, 0.1], [1.0, -1.0, 0.1], [1.0, 1.0, 0.1], [-1.0, 1.0, 0.1]])
+    occluders = sg.Occluders([(wall, [[0, 1, 2], [0, 2, 3]])])
+    free, hidden = (made.light(LIGHTS[:1], occluders=other) for other in (None, occluders))
+    assert free.exitance.max() > 0.0
+    assert not hidden.exitance.any()
+
+
+def test_lit_skin_keeps_what_comes_through_alone(made):
+    lit = made.light(LIGHTS[:1])
+    assert (lit.transmitted >= 0.0).all()
+    assert (lit.transmitted <= lit.exitance + 1e-9).all()
+    # Where no light falls, on the place and about it, all of it came through. Light from skin to skin counts as lit.
+    alone = made.light(LIGHTS[:1], reentries=0)
+    triangles = bodies.lobe()[1]
+    dark = np.ones(len(made.points), bool)
+    dark[triangles[alone.irradiance.any(axis=1)[triangles].any(axis=1)]] = False
+    assert dark.sum() > 100
+    np.testing.assert_allclose(alone.transmitted[dark], alone.exitance[dark], atol=1e-3 * alone.exitance.max())
