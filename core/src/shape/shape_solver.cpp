@@ -95,6 +95,7 @@ const VertexRows& ShapeSolver::vertex_rows(const LazyPart& part) const {
         const PartSolver& solver = solver_of(part);
         VertexRows rows;
         for (const std::uint32_t v : part.part.vertices) {
+            if (reentry().seen()[v] == 0) continue;
             const std::uint32_t s = vertex_sites().site_of()[v];
             if (solver.covers(vertex_sites().sites()[s])) rows.sites.push_back(s);
         }
@@ -115,7 +116,11 @@ std::vector<std::uint8_t> ShapeSolver::wanted_vertices(bool reentries) const {
     if (sites_.are_vertices()) return std::vector<std::uint8_t>(body_.welded_of().size(), 1);
     std::vector<std::uint8_t> wanted(body_.welded_of().size(), 0);
     for (const auto& part : parts_) {
-        for (const std::uint32_t v : part->part.vertices) wanted[v] = 1;
+        if (const PartSolver* solver = part->solver.ready()) {
+            solver->mark_vertices(wanted);
+        } else {
+            for (const std::uint32_t v : part->part.vertices) wanted[v] = 1;
+        }
     }
     for (std::size_t s = 0; s < is_thin_.size(); ++s) {
         const Site& site = sites_.sites()[s];
