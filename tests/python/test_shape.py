@@ -193,6 +193,18 @@ def test_cells_are_never_larger_than_the_flesh(cell_mm):
     np.testing.assert_allclose(found[:2], fine[:2], rtol=0.15)
 
 
+@pytest.mark.parametrize("squares", [1, 2, 8])
+def test_large_triangles_are_solved_all_over(squares):
+    def at(cells):
+        vertices, triangles = bodies.plate(44.0, 2.0, cells)
+        places = np.array([[0.3, 0.4, 2.0], [5.0, 3.0, 2.0], [-7.0, 9.0, 2.0]])
+        shape = sg.Shape(vertices, triangles, **SKIN, points=places)
+        assert len(shape.parts) == 1
+        return shape.exitance(np.where(vertices[:, 2] == 0.0, 1.0, 0.0))
+
+    np.testing.assert_allclose(at(squares), at(44), rtol=0.04)
+
+
 def test_one_triangle_is_a_half_space():
     shape = sg.Shape([[0, 0, 0], [10, 0, 0], [0, 10, 0.0]], [[0, 1, 2]], **SKIN)
     assert shape.parts == []

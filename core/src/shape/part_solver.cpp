@@ -8,11 +8,16 @@
 namespace skinglow::detail {
 namespace {
 
-std::vector<glm::vec3> positions_of(const SurfaceSites& all, std::span<const std::uint32_t> sites) {
-    std::vector<glm::vec3> positions;
-    positions.reserve(sites.size());
-    for (const std::uint32_t i : sites) positions.push_back(all.sites()[i].position);
-    return positions;
+/// All places that the exitance of the sites is a mean over, no farther apart than half the margin.
+std::vector<glm::vec3> places_of(const Body& body, const SurfaceSites& all,
+                                 std::span<const std::uint32_t> sites, double margin) {
+    std::vector<glm::vec3> places;
+    places.reserve(sites.size());
+    for (const std::uint32_t i : sites) {
+        const auto spread = all.spread(body, all.sites()[i], static_cast<float>(0.5 * margin));
+        places.insert(places.end(), spread.begin(), spread.end());
+    }
+    return places;
 }
 
 }  // namespace
@@ -20,9 +25,9 @@ std::vector<glm::vec3> positions_of(const SurfaceSites& all, std::span<const std
 PartSolver::PartSolver(const FleshSurface& surface, const SurfaceSites& all,
                        std::span<const std::uint32_t> sites, const LaneMedium& medium,
                        const PartOptions& options)
-    : PartSolver(
-          surface, all, sites, medium, options,
-          VoxelGrid(surface, positions_of(all, sites), options.margin, options.cell, options.threads)) {}
+    : PartSolver(surface, all, sites, medium, options,
+                 VoxelGrid(surface, places_of(surface.body(), all, sites, options.margin), options.margin,
+                           options.cell, options.threads)) {}
 
 PartSolver::PartSolver(const FleshSurface& surface, const SurfaceSites& all,
                        std::span<const std::uint32_t> sites, const LaneMedium& medium,

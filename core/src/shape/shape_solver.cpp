@@ -18,6 +18,7 @@ constexpr double coarse_cells_through = 3;
 constexpr double finest_of_wanted = 0.05;
 /// Places of a grid's box, for memory's sake.
 constexpr double max_places = 6e7;
+constexpr double max_refined_places = 4e6;  // with cells smaller than asked for
 /// Flesh in which light falls by this many powers of e within a cell is a half-space.
 constexpr double opaque = 3;
 /// Rays from a vertex whose exitance is only wanted as light for others.
@@ -31,14 +32,17 @@ double margin_of(const LaneMedium& medium, const SolverOptions& options) {
 }
 
 /// The cell of a part: no larger than what most of it is thick, and no smaller than its box can hold.
-double cell_of(const ThinPart& part, const SurfaceSites& sites, const LaneMedium& medium, double margin,
-               double wanted) {
+double cell_of(const ThinPart& part, const Body& body, const SurfaceSites& sites, const LaneMedium& medium,
+               double margin, double wanted) {
     std::vector<glm::vec3> centers;
-    for (const std::uint32_t s : part.sites) centers.push_back(sites.sites()[s].position);
+    for (const std::uint32_t s : part.sites) {
+        const auto spread = sites.spread(body, sites.sites()[s], static_cast<float>(margin));
+        centers.insert(centers.end(), spread.begin(), spread.end());
+    }
     const double through = std::min(part.thin_mm / cells_through, 1 / medium.min_extinction());
     const double thin = std::max(part.thin_mm / coarse_cells_through, through);
     double cell = std::min(wanted, std::max(thin, finest_of_wanted * wanted));
-    while (box_places(centers, margin, cell) > max_places) cell *= 1.1;
+    while (box_places(centers, margin, cell) > (cell < wanted ? max_refined_places : max_places)) cell *= 1.1;
     return cell;
 }
 
@@ -81,7 +85,7 @@ const SurfaceSites& ShapeSolver::vertex_sites() const {
 
 const PartSolver& ShapeSolver::solver_of(const LazyPart& part) const {
     return part.solver.get([&] {
-        const PartOptions options{cell_of(part.part, sites_, medium_, margin_, options_.cell_mm),
+        const PartOptions options{cell_of(part.part, body_, sites_, medium_, margin_, options_.cell_mm),
                                   margin_,
                                   options_.threads,
                                   !sites_.are_vertices(),

@@ -1,6 +1,7 @@
 #include "shape/surface_sites.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 
@@ -83,6 +84,26 @@ SurfaceSites::SurfaceSites(const Body& body, const TriangleTree& tree, std::span
         site_of_[i] = i;
         sites_.push_back(site);
     }
+}
+
+std::vector<glm::vec3> SurfaceSites::spread(const Body& body, const Site& site, float length) const {
+    constexpr float most_parts = 300;
+    std::vector<glm::vec3> points{site.position};
+    for (const SitePiece& piece : pieces(site)) {
+        const BodyTriangle& t = body.triangles()[piece.triangle];
+        float longest = 0;
+        for (int k = 0; k < 3; ++k)
+            longest = std::max(longest, glm::length(body.corner(t, k) - body.corner(t, (k + 1) % 3)));
+        if (longest <= length) continue;
+        const int parts = static_cast<int>(std::min(most_parts, std::ceil(longest / length)));
+        for (int i = 0; i <= parts; ++i) {
+            for (int j = 0; i + j <= parts; ++j) {
+                points.push_back(body.at(t, static_cast<float>(i) / static_cast<float>(parts),
+                                         static_cast<float>(j) / static_cast<float>(parts)));
+            }
+        }
+    }
+    return points;
 }
 
 }  // namespace skinglow::detail

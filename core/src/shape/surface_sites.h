@@ -43,6 +43,10 @@ class SurfaceSites {
     std::span<const SitePiece> pieces(const Site& site) const {
         return {pieces_.data() + site.first_piece, site.pieces};
     }
+    /// The site, and of a vertex with large triangles points on them, no farther apart than a length: all
+    /// that its exitance is the mean of.
+    std::vector<glm::vec3> spread(const Body& body, const Site& site, float length) const;
+
     bool are_vertices() const { return are_vertices_; }
 
   private:

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "geometry/vector.h"
 #include "geometry/weld.h"
@@ -28,7 +29,13 @@ class Blocks {
 
     glm::dvec3 key(const glm::vec3& p) const { return glm::floor(glm::dvec3(p - low_) / edge_); }
 
-    void add(const glm::vec3& p, std::uint32_t item) { of_[key(p)].push_back(item); }
+    void add(const glm::vec3& p, std::uint32_t item) {
+        std::vector<std::uint32_t>& items = of_[key(p)];
+        if (items.empty() || items.back() != item) items.push_back(item);
+    }
+
+    /// Whether this is the first call for a block.
+    bool visit_once(const glm::dvec3& key) { return visited_.insert(key).second; }
 
     std::vector<std::uint32_t>* find(const glm::dvec3& key) {
         const auto found = of_.find(key);
@@ -42,7 +49,21 @@ class Blocks {
     double edge_;
     glm::vec3 low_;
     std::unordered_map<glm::dvec3, std::vector<std::uint32_t>, Hash> of_;
+    std::unordered_set<glm::dvec3, Hash> visited_;
 };
+
+/// Parts along an edge of a triangle that is larger than a block.
+constexpr int max_steps = 300;
+
+std::vector<glm::vec3> triangle_points(const Body& body, const BodyTriangle& t, int parts) {
+    std::vector<glm::vec3> points;
+    const auto scale = static_cast<float>(parts);
+    for (int i = 0; i <= parts; ++i) {
+        for (int j = 0; i + j <= parts; ++j)
+            points.push_back(body.at(t, static_cast<float>(i) / scale, static_cast<float>(j) / scale));
+    }
+    return points;
+}
 
 template <typename Visit>
 void visit_neighborhood(Blocks& blocks, const glm::dvec3& key, const Visit& visit) {
@@ -52,8 +73,8 @@ void visit_neighborhood(Blocks& blocks, const glm::dvec3& key, const Visit& visi
     }
 }
 
-/// Sites that are thin, and those about them: a crease between thin flesh and thick is lit by the thin one however deep
-/// the flesh is below it. Not 0, one per site.
+/// Sites that are thin, and those about them: a crease between thin flesh and thick is lit by the thin one
+/// however deep the flesh is below it. Not 0, one per site.
 std::vector<std::uint8_t> thin_and_about(const SurfaceSites& sites, const std::vector<float>& thickness,
                                          double max_thickness, double margin, const glm::vec3& low) {
     // About means in the same or a neighboring block: half the margin to all of it away.
@@ -105,31 +126,46 @@ std::vector<ThinPart> thin_parts(const Body& body, const SurfaceSites& sites,
     const std::vector<std::uint8_t> counts = thin_and_about(sites, thickness, max_thickness, margin, low);
     const auto is_thin = [&](std::size_t i) { return counts[i] != 0; };
     for (std::uint32_t i = 0; i < thickness.size(); ++i) {
-        if (is_thin(i)) thin.add(sites.sites()[i].position, i);
+        if (!is_thin(i)) continue;
+        for (const glm::vec3& p : sites.spread(body, sites.sites()[i], static_cast<float>(margin)))
+            thin.add(p, i);
     }
     for (std::uint32_t v = 0; v < body.welded_of().size(); ++v)
         vertices.add(body.positions()[body.welded_of()[v]], v);
+    // A large triangle brings light from corners that may be far away.
+    for (const BodyTriangle& t : body.triangles()) {
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec3 a = body.corner(t, k);
+            const glm::vec3 b = body.corner(t, (k + 1) % 3);
+            const auto steps = static_cast<int>(glm::length(b - a) / static_cast<float>(margin));
+            if (steps == 0) continue;
+            for (const glm::vec3& p : triangle_points(body, t, std::min(steps + 1, max_steps))) {
+                for (int c = 0; c < 3; ++c) vertices.add(p, t.corners[c]);
+            }
+            break;
+        }
+    }
     std::vector<std::uint8_t> seen(thickness.size(), 0);
     std::vector<ThinPart> parts;
     for (std::uint32_t first = 0; first < thickness.size(); ++first) {
         if (seen[first] != 0 || !is_thin(first)) continue;
         ThinPart part;
         std::vector<glm::dvec3> open{thin.key(sites.sites()[first].position)};
-        const auto take = [&](std::vector<std::uint32_t>& items) {
-            for (const std::uint32_t i : items) seen[i] = 1;
-            part.sites.insert(part.sites.end(), items.begin(), items.end());
-        };
-        take(*thin.find(open.front()));
+        thin.visit_once(open.front());
         for (std::size_t next = 0; next < open.size(); ++next) {
             const glm::dvec3 key = open[next];
-            visit_neighborhood(thin, key, [&](const glm::dvec3& other, std::vector<std::uint32_t>& items) {
-                if (seen[items.front()] != 0) return;
-                take(items);
-                open.push_back(other);
+            for (const std::uint32_t i : *thin.find(key)) {
+                if (seen[i] != 0) continue;
+                seen[i] = 1;
+                part.sites.push_back(i);
+            }
+            visit_neighborhood(thin, key, [&](const glm::dvec3& other, const std::vector<std::uint32_t>&) {
+                if (thin.visit_once(other)) open.push_back(other);
             });
-            visit_neighborhood(vertices, key, [&](const glm::dvec3&, std::vector<std::uint32_t>& items) {
-                part.vertices.insert(part.vertices.end(), items.begin(), items.end());
-            });
+            visit_neighborhood(vertices, key,
+                               [&](const glm::dvec3&, const std::vector<std::uint32_t>& items) {
+                                   part.vertices.insert(part.vertices.end(), items.begin(), items.end());
+                               });
         }
         std::sort(part.sites.begin(), part.sites.end());
         std::vector<float> sorted;
