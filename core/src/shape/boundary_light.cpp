@@ -86,9 +86,51 @@ std::array<double, 2> seen_fluence(const Sp3Medium& medium, double cell) {
     return {medium.fluence[0], medium.fluence[1] * ratio};
 }
 
+namespace {
+
+/// How the seen fluence goes on over the surface, by height.
+class RiseTable {
+  public:
+    struct Rise {
+        double cosh[2];  ///< seen fluence of a mode times cosh(decay height)
+        double sinh[2];  ///< times sinh(decay height) / decay, mm
+    };
+
+    RiseTable(const LaneMedium& medium, double cell)
+        : bins_per_mm_(static_cast<float>(static_cast<double>(bins) / (max_cells * cell))) {
+        for (std::size_t b = 0; b <= bins; ++b) {
+            const double height = max_cells * cell * static_cast<double>(b) / bins;
+            for (std::size_t k = 0; k < lane_count; ++k) {
+                const std::array<double, 2> seen = seen_fluence(medium[k], cell);
+                Rise rise{};
+                for (std::size_t i = 0; i < 2; ++i) {
+                    const double decay = medium[k].decay[i];
+                    const double x = std::min(decay * height, max_rise);
+                    rise.cosh[i] = seen[i] * std::cosh(x);
+                    rise.sinh[i] = seen[i] * (x < 1e-6 ? height : std::sinh(x) / decay);
+                }
+                rises_.push_back(rise);
+            }
+        }
+    }
+    const Rise& at(std::size_t lane, float height) const {
+        const auto bin = static_cast<std::size_t>(std::min(height * bins_per_mm_ + 0.5F, float{bins}));
+        return rises_[bin * lane_count + lane];
+    }
+
+  private:
+    static constexpr std::size_t bins = 500;
+    static constexpr double max_cells = 3;  ///< a ghost is among the neighbors of the cell of a sample
+    float bins_per_mm_;
+    std::vector<Rise> rises_;
+};
+
+}  // namespace
+
 SparseRows<LanePair> boundary_light(const Body& body, const VoxelGrid& grid,
                                     std::span<const BoundarySample> samples, const LaneMedium& medium) {
     const Groups by_cell(samples.size(), grid.size(), [&](std::uint32_t i) { return samples[i].cell; });
+    const SurfaceLinks links(medium, max_sample_height * static_cast<double>(grid.cell()));
     RowSums<LanePair> sums(vertices_of(body));
     SparseRows<LanePair> rows;
     for (std::uint32_t c = 0; c < grid.size(); ++c) {
@@ -96,7 +138,7 @@ SparseRows<LanePair> boundary_light(const Body& body, const VoxelGrid& grid,
             const BoundarySample& s = samples[i];
             LanePair part;
             for (std::size_t k = 0; k < lane_count; ++k) {
-                const SurfaceLink link = surface_link(medium[k], static_cast<double>(s.height));
+                const SurfaceLink& link = links.at(k, s.height);
                 part.first[k] = static_cast<float>(link.right(0)) * s.area;
                 part.second[k] = static_cast<float>(link.right(1)) * s.area;
             }
@@ -118,6 +160,8 @@ Ghosts make_ghosts(const Body& body, const VoxelGrid& grid, std::span<const Boun
     std::uint32_t count = 0;
     const std::vector<Lean> leans = find_leans(body, grid, samples, result.index, count);
     const Groups by_ghost(leans.size(), count, [&](std::uint32_t i) { return leans[i].ghost; });
+    const SurfaceLinks links(medium, max_sample_height * static_cast<double>(grid.cell()));
+    const RiseTable rises(medium, static_cast<double>(grid.cell()));
     RowSums<LanePair> of_modes(grid.size());
     RowSums<Lanes> of_light(vertices_of(body));
     for (std::uint32_t g = 0; g < count; ++g) {
@@ -130,19 +174,15 @@ Ghosts make_ghosts(const Body& body, const VoxelGrid& grid, std::span<const Boun
             LanePair modes;
             Lanes light;
             for (std::size_t k = 0; k < lane_count; ++k) {
-                const Sp3Medium& m = medium[k];
-                const SurfaceLink link = surface_link(m, static_cast<double>(s.height));
-                const std::array<double, 2> seen = seen_fluence(m, static_cast<double>(grid.cell()));
+                const SurfaceLink& link = links.at(k, s.height);
                 // psi over the surface, cosh(decay height) psi_surface - sinh(decay height) / decay F, is
                 // this of psi_i below it and that of F_i.
+                const RiseTable::Rise& rise = rises.at(k, lean.height);
                 double of_flux[2];
                 double of_psi[2];
                 for (std::size_t n = 0; n < 2; ++n) {
-                    const double x = std::min(m.decay[n] * static_cast<double>(lean.height), max_rise);
-                    const double rise =
-                        x < 1e-6 ? static_cast<double>(lean.height) : std::sinh(x) / m.decay[n];
-                    of_psi[n] = seen[n] * std::cosh(x) * link.falloff[n];
-                    of_flux[n] = -seen[n] * (std::cosh(x) * link.depth[n] + rise);
+                    of_psi[n] = rise.cosh[n] * link.falloff[n];
+                    of_flux[n] = -(rise.cosh[n] * link.depth[n] + rise.sinh[n]);
                 }
                 modes.first[k] = static_cast<float>(of_psi[0] + of_flux[0] * link.flux[0][0] +
                                                     of_flux[1] * link.flux[1][0]);

@@ -17,6 +17,9 @@ struct BoundarySample {
     float height;  ///< of its plane over the cell's center, mm, 0 or more
 };
 
+/// No sample's plane is farther over its cell's center, in cells.
+constexpr double max_sample_height = 3.5;
+
 struct BoundarySamples {
     std::vector<BoundarySample> samples;
     double lost_area = 0;  ///< of pieces at the flesh's own surface that no cell was found for, mm^2

@@ -82,11 +82,4 @@ std::optional<TriangleHit> FleshSurface::nearest(const glm::vec3& origin, const 
     return std::nullopt;
 }
 
-bool FleshSurface::separates(const glm::vec3& a, const glm::vec3& b) const {
-    const float distance = glm::length(b - a);
-    if (!(distance > 0)) return false;
-    const auto hit = nearest(a, (b - a) / distance, 0.0F);
-    return hit && hit->distance < distance;
-}
-
 }  // namespace skinglow::detail

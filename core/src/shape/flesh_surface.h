@@ -36,9 +36,6 @@ class FleshSurface {
     /// @param direction  unit length
     std::optional<TriangleHit> nearest(const glm::vec3& origin, const glm::vec3& direction, float from) const;
 
-    /// Whether the flesh's own surface lies between two points.
-    bool separates(const glm::vec3& a, const glm::vec3& b) const;
-
     /// Whether the surface stops a ray that begins at a place of it and goes outward.
     /// @param direction  unit length
     bool blocks(const glm::vec3& origin, const glm::vec3& direction, float to) const {

@@ -54,6 +54,7 @@ class FlightTracer {
           fluence_(grid.size() + ghosts.of_modes.rows()),
           light_(body_.welded_of().size()),
           index_n_(medium[0].refractive_index),
+          escaping_(static_cast<float>(1 / (index_n_ * index_n_))),
           inside_reflectance_(static_cast<float>(medium[0].inside_reflectance)),
           transmittance_(static_cast<float>(medium[0].transmittance)),
           extinction_(medium.lanes([](const Sp3Medium& m) { return m.extinction; })),
@@ -79,8 +80,9 @@ class FlightTracer {
             Ray ray = site.pieces == 0 ? from_point(site) : from_vertex(pieces, area, x);
             // From a point the even coordinate is free, and goes with the one of the golden ratio.
             const float turn = static_cast<float>(r) * 0.618034F + lattice.at(0)[1];
-            ray.direction = site.pieces == 0 ? cosine_direction(-ray.normal, x[0], turn - std::floor(turn))
-                                             : cosine_direction(-ray.normal, x[3], x[4]);
+            ray.direction = site.pieces == 0
+                                ? cosine_direction(-ray.normal, escaping_ * x[0], turn - std::floor(turn))
+                                : cosine_direction(-ray.normal, escaping_ * x[3], x[4]);
             follow(ray, 131 * static_cast<std::uint64_t>(index) + static_cast<std::uint64_t>(r));
         }
         store(index, rows);
@@ -123,7 +125,7 @@ class FlightTracer {
 
     void follow(Ray ray, std::uint64_t seed) {
         Lanes weight = Lanes::all(1 - inside_reflectance_);
-        if (index_n_ > 1) weight = weight * (1 - fresnel(ray.direction, ray.normal));
+        if (index_n_ > 1) weight = weight * (escaping_ * (1 - fresnel(ray.direction, ray.normal)));
         for (int bounce = 0; bounce < max_bounces; ++bounce) {
             const auto hit = surface_.nearest(ray.origin, ray.direction, 0.0F);
             const float length = hit ? hit->distance : std::numeric_limits<float>::infinity();
@@ -161,14 +163,6 @@ class FlightTracer {
         return x < 1e-2F ? 0.5F * step : step * (1 / x - 1 / std::expm1(x));
     }
 
-    /// Whether some of eight cells may be beyond air.
-    bool is_beside_gap(const std::array<std::int32_t, 8>& cells) const {
-        return std::any_of(cells.begin(), cells.end(), [&](std::int32_t c) {
-            return c >= 0 && c < static_cast<std::int32_t>(grid_.size()) &&
-                   grid_.beside_gap(static_cast<std::uint32_t>(c));
-        });
-    }
-
     /// Linear interpolation between cells lies above a field that obeys laplace psi = decay^2 psi; by how
     /// much in the mean over directions, for the mode that reaches far.
     Lanes interpolation_factor(const glm::vec3& f) const {
@@ -200,20 +194,6 @@ class FlightTracer {
                                       : ((c & 4) != 0 ? f.x : 1 - f.x) * ((c & 2) != 0 ? f.y : 1 - f.y) *
                                             ((c & 1) != 0 ? f.z : 1 - f.z);
                 sum += part[i];
-            }
-            if (is_beside_gap(cell)) {
-                sum = 0;
-                const glm::vec3 point = (at + 0.5F) * grid_.cell() + grid_.low();
-                for (int c = 0; c < 8; ++c) {
-                    const auto i = static_cast<std::size_t>(c);
-                    if (part[i] == 0) continue;
-                    const glm::vec3 corner_center =
-                        grid_.center_of(place + glm::ivec3(c >> 2, (c >> 1) & 1, c & 1));
-                    if (cell[i] < static_cast<std::int32_t>(grid_.size()) &&
-                        surface_.separates(point, corner_center))
-                        part[i] = 0;
-                    sum += part[i];
-                }
             }
             const Lanes deposit = (weight - left) * interpolation_factor(f);
             weight = left;
@@ -247,6 +227,7 @@ class FlightTracer {
     RowSums<Lanes> fluence_;
     RowSums<Lanes> light_;
     double index_n_;
+    float escaping_;  ///< of cosine-distributed rays, those that a smooth surface does not reflect totally
     float inside_reflectance_;
     float transmittance_;
     Lanes extinction_;

@@ -98,6 +98,15 @@ void PartSolver::exitance(const LastFlight& flight, const PartField& field, std:
     for_each_block(out.size(), threads, work, {}, 1024);
 }
 
+void PartSolver::mark_vertices(std::span<std::uint8_t> marks) const {
+    const auto mark = [&](const std::vector<std::uint32_t>& vertices) {
+        for (const std::uint32_t v : vertices) marks[v] = 1;
+    };
+    mark(right_.all_columns());
+    mark(ghosts_.of_light.all_columns());
+    mark(flight_.of_light.all_columns());
+}
+
 std::size_t PartSolver::bytes() const {
     return grid_.bytes() + system_.bytes() + right_.bytes() + ghosts_.bytes() + flight_.bytes();
 }

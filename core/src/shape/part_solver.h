@@ -52,6 +52,9 @@ class PartSolver {
     /// Whether a site lies on a cell.
     bool covers(const Site& site) const;
 
+    /// Marks the vertices whose irradiance is asked for.
+    void mark_vertices(std::span<std::uint8_t> marks) const;
+
     std::uint32_t cells() const { return grid_.size(); }
     double cell() const { return static_cast<double>(grid_.cell()); }
     /// Area of the surface that no cell was found for, over that of all that belongs to the part.

@@ -11,12 +11,11 @@ namespace {
 /// Flesh about a thin site counts up to this many lengths over which the least absorbed light falls to 1/e.
 constexpr double margin_in_decays = 2;
 constexpr double margin_in_cells = 4;
-/// Cells through the thin places of a part, at least; down to a part of the cell that is asked for.
+/// Cells through the thin places of a part, at least; and where cells are longer than a mean free path. Not
+/// below a part of the cell that is asked for.
 constexpr double cells_through = 1.2;
+constexpr double coarse_cells_through = 3;
 constexpr double finest_of_wanted = 0.05;
-/// And so many where cells would be larger than skin asks for.
-constexpr double coarsest_cells_through = 6;
-constexpr double ordinary_cell_mm = 0.8;
 /// Places of a grid's box, for memory's sake.
 constexpr double max_places = 6e7;
 /// Flesh in which light falls by this many powers of e within a cell is a half-space.
@@ -32,12 +31,13 @@ double margin_of(const LaneMedium& medium, const SolverOptions& options) {
 }
 
 /// The cell of a part: no larger than what most of it is thick, and no smaller than its box can hold.
-double cell_of(const ThinPart& part, const SurfaceSites& sites, double margin, double wanted) {
+double cell_of(const ThinPart& part, const SurfaceSites& sites, const LaneMedium& medium, double margin,
+               double wanted) {
     std::vector<glm::vec3> centers;
     for (const std::uint32_t s : part.sites) centers.push_back(sites.sites()[s].position);
-    const double coarsest = std::max(part.thin_mm / coarsest_cells_through, ordinary_cell_mm);
-    const double thin = std::max(part.thin_mm / cells_through, finest_of_wanted * wanted);
-    double cell = std::min({wanted, thin, coarsest});
+    const double through = std::min(part.thin_mm / cells_through, 1 / medium.min_extinction());
+    const double thin = std::max(part.thin_mm / coarse_cells_through, through);
+    double cell = std::min(wanted, std::max(thin, finest_of_wanted * wanted));
     while (box_places(centers, margin, cell) > max_places) cell *= 1.1;
     return cell;
 }
@@ -81,7 +81,7 @@ const SurfaceSites& ShapeSolver::vertex_sites() const {
 
 const PartSolver& ShapeSolver::solver_of(const LazyPart& part) const {
     return part.solver.get([&] {
-        const PartOptions options{cell_of(part.part, sites_, margin_, options_.cell_mm),
+        const PartOptions options{cell_of(part.part, sites_, medium_, margin_, options_.cell_mm),
                                   margin_,
                                   options_.threads,
                                   !sites_.are_vertices(),
@@ -95,6 +95,7 @@ const VertexRows& ShapeSolver::vertex_rows(const LazyPart& part) const {
         const PartSolver& solver = solver_of(part);
         VertexRows rows;
         for (const std::uint32_t v : part.part.vertices) {
+            if (reentry().seen()[v] == 0) continue;
             const std::uint32_t s = vertex_sites().site_of()[v];
             if (solver.covers(vertex_sites().sites()[s])) rows.sites.push_back(s);
         }
@@ -115,7 +116,11 @@ std::vector<std::uint8_t> ShapeSolver::wanted_vertices(bool reentries) const {
     if (sites_.are_vertices()) return std::vector<std::uint8_t>(body_.welded_of().size(), 1);
     std::vector<std::uint8_t> wanted(body_.welded_of().size(), 0);
     for (const auto& part : parts_) {
-        for (const std::uint32_t v : part->part.vertices) wanted[v] = 1;
+        if (const PartSolver* solver = part->solver.ready()) {
+            solver->mark_vertices(wanted);
+        } else {
+            for (const std::uint32_t v : part->part.vertices) wanted[v] = 1;
+        }
     }
     for (std::size_t s = 0; s < is_thin_.size(); ++s) {
         const Site& site = sites_.sites()[s];

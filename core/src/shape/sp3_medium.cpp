@@ -197,4 +197,13 @@ double LaneMedium::min_extinction() const {
     return least;
 }
 
+SurfaceLinks::SurfaceLinks(const LaneMedium& medium, double max_depth)
+    : bins_per_mm_(static_cast<float>(bins / max_depth)) {
+    links_.reserve((bins + 1) * lane_count);
+    for (std::size_t b = 0; b <= bins; ++b) {
+        for (std::size_t k = 0; k < lane_count; ++k)
+            links_.push_back(surface_link(medium[k], max_depth * static_cast<double>(b) / bins));
+    }
+}
+
 }  // namespace skinglow::detail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -75,6 +76,24 @@ class LaneMedium {
   private:
     std::vector<Sp3Medium> media_;
     std::size_t nodes_;
+};
+
+/// The links of all nodes by depth, made once: a body has a hundred thousand pieces of surface. Depths are
+/// rounded to a thousandth of the largest.
+class SurfaceLinks {
+  public:
+    /// @param max_depth  mm; greater ones count as this
+    SurfaceLinks(const LaneMedium& medium, double max_depth);
+
+    const SurfaceLink& at(std::size_t lane, float depth) const {
+        const auto bin = static_cast<std::size_t>(std::min(depth * bins_per_mm_ + 0.5F, float{bins}));
+        return links_[bin * lane_count + lane];
+    }
+
+  private:
+    static constexpr std::size_t bins = 1000;
+    float bins_per_mm_;
+    std::vector<SurfaceLink> links_;
 };
 
 }  // namespace skinglow::detail

@@ -19,12 +19,6 @@ double flux_factor(double x, double h) {
     return x < 1e-3 ? h * (1 - x * x / 6) : (x > 500 ? 0.0 : h * x / std::sinh(x));
 }
 
-/// What half a cell and a surface at a height over its center differ by, per area: decay (tanh(decay height)
-/// - tanh(decay h / 2)).
-double reaction_change(double decay, double height, double h) {
-    return decay * (std::tanh(decay * height) - std::tanh(0.5 * decay * h));
-}
-
 LaneSum dot(std::span<const LanePair> a, std::span<const LanePair> b) {
     LaneSum total{};
     for (std::size_t begin = 0; begin < a.size(); begin += sum_block) {
@@ -47,8 +41,12 @@ Sp3System::Sp3System(const VoxelGrid& grid, std::span<const BoundarySample> samp
         std::array<double, lane_count> r1{}, r2{};           // change of the reaction at the surface
     };
     std::array<double, lane_count> flux[2];
+    std::array<std::array<double, lane_count>, 2> half_cell{};
     for (std::size_t k = 0; k < lane_count; ++k) {
-        for (int i = 0; i < 2; ++i) flux[i][k] = flux_factor(medium[k].decay[i] * h, h);
+        for (int i = 0; i < 2; ++i) {
+            flux[i][k] = flux_factor(medium[k].decay[i] * h, h);
+            half_cell[static_cast<std::size_t>(i)][k] = std::tanh(0.5 * medium[k].decay[i] * h);
+        }
     }
     flux1_ = each_lane([&](std::size_t k) { return static_cast<float>(flux[0][k]); });
     flux2_ = each_lane([&](std::size_t k) { return static_cast<float>(flux[1][k]); });
@@ -77,17 +75,22 @@ Sp3System::Sp3System(const VoxelGrid& grid, std::span<const BoundarySample> samp
         class_of_[c] = static_cast<std::uint32_t>(sums.size());
         sums.push_back(inner(static_cast<int>(count), grid.neighbors(c).cuts));
     }
+    const SurfaceLinks links(medium, max_sample_height * h);
     for (const BoundarySample& s : samples) {
         Sums& sum = sums[class_of_[s.cell]];
         const auto area = static_cast<double>(s.area);
-        const auto height = static_cast<double>(s.height);
         for (std::size_t k = 0; k < lane_count; ++k) {
-            const SurfaceLink link = surface_link(medium[k], height);
+            const SurfaceLink& link = links.at(k, s.height);
             sum.d11[k] += area * link.block(0);
             sum.d12[k] += area * link.block(1);
             sum.d22[k] += area * link.block(2);
-            sum.r1[k] += area * reaction_change(medium[k].decay[0], height, h);
-            sum.r2[k] += area * reaction_change(medium[k].decay[1], height, h);
+            // Between cell and surface there is this much more or less than half a cell that reacts.
+            const auto change = [&](int i) {
+                const double m = medium[k].decay[i];
+                return area * m * (m * link.depth[i] - half_cell[static_cast<std::size_t>(i)][k]);
+            };
+            sum.r1[k] += change(0);
+            sum.r2[k] += change(1);
         }
     }
     // Where surfaces on all sides belong to one cell, little of it is flesh; some is.

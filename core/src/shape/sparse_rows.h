@@ -45,7 +45,7 @@ class SparseRows {
     std::span<const Value> values(std::size_t row) const {
         return {value_.data() + begin_[row], begin_[row + 1] - begin_[row]};
     }
-    std::vector<std::uint32_t>& all_columns() { return column_; }
+    const std::vector<std::uint32_t>& all_columns() const { return column_; }
 
   private:
     std::vector<std::uint32_t> begin_{0};

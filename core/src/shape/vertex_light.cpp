@@ -21,7 +21,7 @@ namespace {
 constexpr double area_tolerance = 1e-4;
 /// Rays that tell whether a vertex lies in a penumbra; one to a light seen under less than narrow.
 constexpr int first_samples = 4;
-constexpr double narrow = 0.03;  ///< sine of the angular radius
+constexpr double narrow = 0.1;  ///< sine of the angular radius
 /// Rays to the world.
 constexpr int sky_rays = 64;
 /// Shadow rays begin this far outside, mm, or a small part of the body's size.
@@ -45,6 +45,12 @@ VertexLight::VertexLight(const FleshSurface& surface, std::span<const glm::dvec3
     : surface_(surface), vertices_(vertices), sites_(sites), unit_mm_(unit_mm), options_(options) {
     for (std::uint32_t v = 0; v < wanted.size(); ++v) {
         if (wanted[v] != 0) wanted_.push_back(v);
+    }
+    places_.reserve(wanted_.size());
+    for (const std::uint32_t v : wanted_) places_.push_back(place_of(v));
+    for (const BodyTriangle& t : surface.body().triangles()) {
+        if ((wanted[t.corners.x] | wanted[t.corners.y] | wanted[t.corners.z]) != 0)
+            triangles_.push_back(t.corners);
     }
     if (options.occluders != nullptr) excluded_ = options.occluders->scene().triangles_of(options.excluded);
 }
@@ -74,17 +80,17 @@ double VertexLight::fraction(const RigLight& light, const Place& place, std::uin
 
 std::vector<std::uint8_t> VertexLight::doubtful(std::span<const float> fraction) const {
     std::vector<std::uint8_t> result(fraction.size(), 0);
-    for (const BodyTriangle& t : surface_.body().triangles()) {
+    for (const glm::uvec3& corners : triangles_) {
         float low = 2;
         float high = -1;
         for (int k = 0; k < 3; ++k) {
-            const float f = fraction[t.corners[k]];
+            const float f = fraction[corners[k]];
             if (f == no_light) continue;
             low = std::min(low, f);
             high = std::max(high, f);
         }
         if (high <= low && (high == 0 || high == 1)) continue;
-        for (int k = 0; k < 3; ++k) result[t.corners[k]] = 1;
+        for (int k = 0; k < 3; ++k) result[corners[k]] = 1;
     }
     return result;
 }
@@ -96,7 +102,7 @@ std::vector<float> VertexLight::of_light(const RigLight& light) const {
     const auto first = [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t v = wanted_[i];
-            const Place place = place_of(v);
+            const Place& place = places_[i];
             if (place.normal == glm::dvec3(0.0)) continue;
             const double open = light.light.irradiance(place.point, place.normal, area_tolerance);
             if (!(open > 0)) continue;
@@ -111,8 +117,7 @@ std::vector<float> VertexLight::of_light(const RigLight& light) const {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t v = wanted_[i];
             if (seen[v] == no_light) continue;
-            if (again[v] != 0)
-                seen[v] = static_cast<float>(fraction(light, place_of(v), v, options_.samples));
+            if (again[v] != 0) seen[v] = static_cast<float>(fraction(light, places_[i], v, options_.samples));
             irradiance[v] *= seen[v];
         }
     };
@@ -125,7 +130,7 @@ std::vector<glm::vec3> VertexLight::of_environment(const Environment& environmen
     std::vector<glm::vec3> result(vertices_.size(), glm::vec3(0.0F));
     const auto work = [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const Place place = place_of(wanted_[i]);
+            const Place& place = places_[i];
             if (place.normal == glm::dvec3(0.0)) continue;
             const glm::dmat3 frame = frame_around(place.normal);
             // The harmonics' sum over all rays is not exactly their integral: only what is hidden is summed.

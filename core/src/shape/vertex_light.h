@@ -55,6 +55,8 @@ class VertexLight {
     const SurfaceSites& sites_;
     double unit_mm_;
     std::vector<std::uint32_t> wanted_;
+    std::vector<Place> places_;          ///< of the wanted
+    std::vector<glm::uvec3> triangles_;  ///< that a wanted vertex is a corner of
     ShadowOptions options_;
     std::vector<TriangleRange> excluded_;
 };

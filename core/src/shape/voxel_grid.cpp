@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "numerics/parallel_blocks.h"
 #include "shape/flesh_cells.h"
 
 namespace skinglow::detail {
@@ -67,7 +66,6 @@ VoxelGrid::VoxelGrid(const FleshSurface& surface, std::span<const glm::vec3> cen
         if (near[i] != 0) index_[i] = flesh[i] == 0 ? outside : (near[i] == near_margin ? 0 : left_out);
     }
     number_cells();
-    part_at_gaps(surface, threads);
 }
 
 glm::ivec3 VoxelGrid::place_of(const glm::vec3& point) const {
@@ -115,7 +113,6 @@ void VoxelGrid::number_cells() {
         index_[i] = count++;
         cells.push_back(i);
     }
-    place_.assign(cells.begin(), cells.end());
     neighbors_.resize(cells.size());
     const auto z_extent = static_cast<std::uint64_t>(extent_.z);
     for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -130,40 +127,6 @@ void VoxelGrid::number_cells() {
             if (found == left_out || found == unknown) ++neighbors_[c].cuts;
         }
     }
-}
-
-void VoxelGrid::part_at_gaps(const FleshSurface& surface, int threads) {
-    beside_gap_.assign(neighbors_.size(), 0);
-    std::vector<std::uint8_t> is_parted(neighbors_.size(), 0);  // bit k: from the next one along axis k
-    const auto place = [&](std::size_t c) {
-        const auto row = static_cast<int>(place_[c] / static_cast<std::uint32_t>(extent_.z));
-        return glm::ivec3(row / extent_.y, row % extent_.y,
-                          static_cast<int>(place_[c] % static_cast<std::uint32_t>(extent_.z)));
-    };
-    const auto work = [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-            const glm::ivec3 here = place(c);
-            for (int axis = 0; axis < 3; ++axis) {
-                if (neighbors_[c].cell[static_cast<std::size_t>(2 * axis + 1)] >= size()) continue;
-                glm::ivec3 next = here;
-                ++next[axis];
-                if (surface.separates(center_of(here), center_of(next)))
-                    is_parted[c] =
-                        static_cast<std::uint8_t>(is_parted[c] | (1U << static_cast<unsigned>(axis)));
-            }
-        }
-    };
-    for_each_block(neighbors_.size(), threads, work, {}, 1024);
-    for (std::uint32_t c = 0; c < size(); ++c) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            if ((is_parted[c] >> axis & 1U) == 0) continue;
-            const std::uint32_t next = neighbors_[c].cell[2 * axis + 1];
-            neighbors_[c].cell[2 * axis + 1] = size();
-            neighbors_[next].cell[2 * axis] = size();
-            beside_gap_[c] = beside_gap_[next] = 1;
-        }
-    }
-    place_ = {};
 }
 
 }  // namespace skinglow::detail

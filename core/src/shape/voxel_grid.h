@@ -58,8 +58,6 @@ class VoxelGrid {
                static_cast<std::size_t>(p.z);
     }
     const std::vector<std::int32_t>& index() const { return index_; }
-    /// Whether air, thinner than a cell, lies between a cell and a neighbor: nothing goes across.
-    bool beside_gap(std::uint32_t cell) const { return beside_gap_[cell] != 0; }
     std::size_t bytes() const {
         return index_.size() * sizeof(std::int32_t) + neighbors_.size() * sizeof(Neighbors);
     }
@@ -68,15 +66,12 @@ class VoxelGrid {
     void fit(std::span<const glm::vec3> centers, double margin);
     std::vector<std::uint8_t> mark_near(std::span<const glm::vec3> centers, double margin) const;
     void number_cells();
-    void part_at_gaps(const FleshSurface& surface, int threads);
 
     float cell_;
     glm::vec3 low_{0.0F};
     glm::ivec3 extent_{0};
     std::vector<std::int32_t> index_;
     std::vector<Neighbors> neighbors_;
-    std::vector<std::uint32_t> place_;  ///< of each cell, while gaps are looked for
-    std::vector<std::uint8_t> beside_gap_;
 };
 
 /// Number of places of the box that a grid would have: what it costs at least.

@@ -1,0 +1,75 @@
+"""What light in a real ear costs, in seconds of one thread, beside the Monte Carlo that is its reference.
+
+Usage: python tests/benchmarks/shape_times.py [CELL_MM]      needs ../shared/data/shape
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import skinglow as sg
+
+DATA = Path(__file__).resolve().parents[3] / "shared" / "data" / "shape"
+SKIN = {"absorption": (0.032, 0.17, 0.48), "reduced_scattering": (0.74, 0.88, 1.01), "refractive_index": 1.0}
+
+
+def seconds(work: Callable[[], object], repeats: int = 5) -> float:
+    """Least processor time of some runs."""
+    times = []
+    for _ in range(repeats):
+        start = time.process_time()
+        work()
+        times.append(time.process_time() - start)
+    return min(times)
+
+
+def light(place: tuple[float, float, float]) -> sg.Light:
+    return sg.Light("POINT", position=place, power=1e6, radius=20.0)
+
+
+def main(cell_mm: float) -> None:
+    mesh, truth = np.load(DATA / "lps_mesh.npz"), np.load(DATA / "lps-a.npz")
+    vertices, triangles = mesh["vertices_mm"].astype(float), mesh["triangles"]
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    normals = np.zeros_like(vertices)
+    for k in range(3):
+        np.add.at(normals, triangles[:, k], np.cross(b - a, c - a))
+    one = truth["vertex"]
+    mirrored = vertices * [-1.0, 1.0, 1.0]
+    near = np.linalg.norm(mirrored - truth["ear_centre_mm"], axis=1) < 30.0
+    both = np.union1d(one, np.flatnonzero(near))
+
+    def make(chosen: np.ndarray) -> sg.Shape:
+        where = {"points": vertices[chosen], "normals": normals[chosen], "threads": 1, "cell_mm": cell_mm}
+        return sg.Shape(vertices, triangles, **SKIN, **where)
+
+    irradiance = truth["irradiance"].astype(float)
+    ear = make(one)
+    prepare = seconds(lambda: make(one).exitance(irradiance), 2)
+    move = seconds(lambda: ear.exitance(irradiance))
+    print(f"cell {cell_mm} mm, {len(one)} points of one ear, three channels, one thread")
+    print(f"prepare and first light            {prepare - move:8.3f} s")
+    print(f"moved light, irradiance given      {1e3 * move:8.1f} ms")
+    lamp = [light((-160.0, 400.0, 100.0))]
+    ear.light(lamp, reentries=0)
+    print(f"moved light, its shadows traced    {1e3 * seconds(lambda: ear.light(lamp, reentries=0)):8.1f} ms")
+    ear.light(lamp)
+    print(f"the same, two re-entries           {1e3 * seconds(lambda: ear.light(lamp)):8.1f} ms")
+    lit = ear.light(lamp)
+    lit.recolor([(1.0, 0.5, 0.2)])
+    print(f"another color                      {1e3 * seconds(lambda: lit.recolor([(1.0, 0.5, 0.2)])):8.3f} ms")
+    print(f"memory                             {ear.bytes / len(one) / 1000:8.1f} kB a point")
+    ears = make(both)
+    lamps = [light((600.0 * np.cos(t), 400.0, 600.0 * np.sin(t))) for t in np.linspace(0.0, 3.0, 16)]
+    ears.light(lamps, reentries=0)
+    print(f"both ears, 16 lights, all shadows  {1e3 * seconds(lambda: ears.light(lamps, reentries=0)):8.1f} ms")
+    reference = float(truth["cpu_s"].sum())
+    print(f"Monte Carlo, 7 to 18 % of noise    {reference:8.1f} s = {reference / move:.0f} moved lights")
+
+
+if __name__ == "__main__":
+    main(float(sys.argv[1]) if len(sys.argv) > 1 else 0.8)
