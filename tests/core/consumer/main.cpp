@@ -90,7 +90,7 @@ int main() {
     expect_near("light behind a wall", seen({0}), 0.0, 0.0);
     expect_near("light without the wall", seen({0, 1}), 1.0, 0.0);
 
-    const Shape plate(skin, ShapeMedium{glm::dvec3(0.1), glm::dvec3(1.0)}, {.unit_mm = 10.0});
+    const Shape plate(skin, ShapeMedium{glm::dvec3(0.1), glm::dvec3(1.0)});
     expect_near("parts of a plate", static_cast<double>(plate.parts().size()), 1.0, 0.0);
 
     PovrayScene scene;
