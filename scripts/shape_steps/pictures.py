@@ -108,13 +108,13 @@ class Stage:
 def figure(path: Path, pictures: Pictures, methods: dict[str, str]) -> None:
     """Rows are views, columns methods; one exposure for a row."""
     rows, axes = plt.subplots(len(VIEWS), len(methods), figsize=(2.5 * len(methods), 2.6 * len(VIEWS) + 0.3))
-    for row, (view, title) in zip(axes, VIEWS.items(), strict=True):
+    for index, (row, (view, title)) in enumerate(zip(axes, VIEWS.items(), strict=True)):
         exposure = 0.9 / np.percentile(pictures.of(view, "monte_carlo")[pictures.exposed(view)][:, 0], 97)
         for ax, (method, name) in zip(row, methods.items(), strict=True):
             ax.imshow(to_screen(exposure * pictures.of(view, method)[:, :, :3]), interpolation="nearest")
             ax.set_xticks([])
             ax.set_yticks([])
-            if row is axes[0]:
+            if index == 0:
                 ax.set_title(name, fontsize=10)
         row[0].set_ylabel(title, fontsize=10)
     rows.tight_layout()

@@ -86,7 +86,14 @@ def measure(lit: Lit, progress: Progress) -> tuple[Measured, dict[float, Array]]
 
 
 def percent(value: float) -> str:
+    if value == 0.0:
+        return "< noise"
     return f"{value:.0f}" if value >= 9.95 else f"{value:.1f}"
+
+
+def with_error(found: Error) -> str:
+    bar = f" ± {found.standard_error:.1f}" if found.together > 0.0 else ""
+    return f"**{percent(found.together)}**{bar}"
 
 
 def errors_table(measured: list[Measured]) -> str:
@@ -103,7 +110,7 @@ def errors_table(measured: list[Measured]) -> str:
                     *((case.head, case.light, f"{case.medium.name.split()[0]}, {surface}") if first else ("", "", "")),
                     f"{cell:g}",
                     *(percent(value) for value in found.back.channels),
-                    f"**{percent(found.back.together)}** ± {found.back.standard_error:.1f}",
+                    with_error(found.back),
                     ", ".join(f"{value:.2f}" for value in found.brightness),
                     percent(found.lit.together),
                     "" if one.table is None or not first else percent(one.table.back.together),
