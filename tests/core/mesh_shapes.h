@@ -20,7 +20,7 @@ struct Mesh {
 
     MeshView view() const { return {vertices, triangles}; }
 
-    void append(const Mesh& other) {
+    void append(Mesh other) {  // by value: it may be this one
         const auto first = static_cast<std::uint32_t>(vertices.size());
         vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
         for (const glm::uvec3& t : other.triangles) triangles.push_back(t + first);
