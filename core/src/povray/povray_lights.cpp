@@ -34,7 +34,8 @@ void add_point_at(SdlText& text, const PreparedLight& light) {
 /// 1 / (f^2 + d^2). f is a soft ball's radius, which has that very law, else so small that it does not show.
 double fade_distance(const PreparedLight& light, const Box& bounds) {
     constexpr double min_fade = 1e-4 * min_light_distance;
-    if (light.soft_falloff() && light.radius() > 0.0) return std::max(light.radius(), min_fade);
+    const bool is_ball = !light.area() && light.soft_falloff() && light.radius() > 0.0;
+    if (is_ball) return std::max(light.radius(), min_fade);
     const double size = 2.0 * bounds.radius();
     return std::max(1e-4 * std::max(bounds.min_distance(light.position()), 1e-3 * size), min_fade);
 }
