@@ -12,24 +12,13 @@
 #include "mesh_arrays.h"
 #include "numerics/argument_check.h"
 #include "numpy_conversion.h"
+#include "progress.h"
 
 namespace py = pybind11;
 using namespace py::literals;
 
 namespace skinglow {
 namespace {
-
-/// Asks Python whether to go on; called without the interpreter's lock.
-ShapeProgress ask_python(const py::object& progress) {
-    return [&progress](double done) {
-        const py::gil_scoped_acquire lock;
-        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        if (progress.is_none()) return true;
-        const int go_on = PyObject_IsTrue(progress(done).ptr());
-        if (go_on < 0) throw py::error_already_set();
-        return go_on != 0;
-    };
-}
 
 /// Three numbers, or one for all three channels.
 glm::dvec3 to_channels(py::handle value, const char* name) {
@@ -56,13 +45,13 @@ Shape make_shape(py::handle vertices, py::handle triangles, py::handle tissue, p
                  py::handle normals, int threads, const py::object& progress) {
     const TriangleMesh mesh = numpy::to_mesh(vertices, triangles);
     const ShapeOptions options{unit_mm, cell_mm, max_thickness_mm, surface_finish(surface), threads};
-    std::vector<glm::dvec3> places;
+    std::vector<glm::dvec3> positions;
     std::vector<glm::dvec3> facing;
-    if (!points.is_none()) places = numpy::to_vec3s(points, "points");
+    if (!points.is_none()) positions = numpy::to_vec3s(points, "points");
     if (!normals.is_none()) facing = numpy::to_vec3s(normals, "normals");
     if (points.is_none() && !facing.empty())
         refuse_argument("normals", "given without points", "normals only with points");
-    const ShapePoints where{places, facing};
+    const ShapePoints where{positions, facing};
     const bool has_medium = !absorption.is_none() || !reduced_scattering.is_none();
     if (!has_medium) {
         const Tissue skin = to_tissue(tissue);

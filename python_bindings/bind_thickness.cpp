@@ -9,25 +9,13 @@
 #include "bind_rays.h"
 #include "mesh_arrays.h"
 #include "numpy_conversion.h"
+#include "progress.h"
 
 namespace py = pybind11;
 using namespace py::literals;
 using namespace skinglow;
 
 namespace {
-
-/// Asks Python whether to go on: an interrupt from the keyboard counts, with and without a function of the
-/// caller's. Called without the interpreter's lock, which the work itself does not need.
-ThicknessProgress ask_python(const py::object& progress) {
-    return [&progress](double done) {
-        const py::gil_scoped_acquire lock;
-        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        if (progress.is_none()) return true;
-        const int go_on = PyObject_IsTrue(progress(done).ptr());
-        if (go_on < 0) throw py::error_already_set();
-        return go_on != 0;
-    };
-}
 
 py::tuple report_of_arrays(py::handle vertices, py::handle triangles, double unit_mm, int rays,
                            double cone_half_angle, double min_sky_visibility, int threads,

@@ -29,7 +29,7 @@ class ShapePart(NamedTuple):
 
 
 class Shape:
-    """A body that light is solved in, where a table over thickness takes each place for a plate. docs/shape.md
+    """A body that light is solved in, where a table over thickness takes each point for a plate. docs/shape.md
 
     vertices            (v, 3), finite, in units of unit_mm
     triangles           (m, 3), whole numbers from 0 to below v, counter-clockwise from outside; at least one
@@ -41,7 +41,7 @@ class Shape:
     unit_mm             length of one unit of the vertices, mm, above 0
     cell_mm             edge of the cells that light is solved on: 0.8 for work, 0.5 is final quality
     max_thickness_mm    flesh that is thicker has the exitance of a half-space
-    points, normals     (n, 3): where exitance is asked, each at the nearest place of the triangles that face along its
+    points, normals     (n, 3): where exitance is asked, each at the nearest point of the triangles that face along its
                         normal. None: at the vertices
     threads             0: one for each processor. The result does not depend on it
     progress            called on this thread with the fraction done, ascending to 1; returns whether to go on. If not,
@@ -186,7 +186,7 @@ class LitShape:
     def recolor(self, colors: ArrayLike) -> NDArray[np.float64]:
         """(n, 3): the exitance with other colors of the lights; sums alone once this or per_light was asked for.
 
-        colors  (k, 3), linear Rec.709, finite, 0 or more, in place of the lights' own
+        colors  (k, 3), linear Rec.709, finite, 0 or more, instead of the lights' own
         """
         return self._lit.recolor(colors)
 

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import sys
 import time
-import traceback
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +20,7 @@ import bpy  # noqa: E402
 import blender_scene as stage  # noqa: E402  isort: skip
 import numpy as np  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
-from job_steps import Steps  # noqa: E402
+from job_steps import Steps, run  # noqa: E402
 
 OUT = Path(JOB["out"])
 MODES = ("existing", "paper")
@@ -136,12 +134,4 @@ def main() -> dict[str, Any]:
     }
 
 
-try:
-    print("@skinglow " + json.dumps({"result": main()}, default=np.ndarray.tolist), flush=True)
-    code = 0
-except BaseException:  # any error: on a normal exit the 4.5 wheel would hang in a destructor
-    traceback.print_exc()
-    code = 1
-sys.stdout.flush()
-sys.stderr.flush()
-os._exit(code)
+run(main)

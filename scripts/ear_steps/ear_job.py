@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
-import traceback
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +19,7 @@ import numpy as np  # noqa: E402
 import shading  # noqa: E402
 import skinglow as sg  # noqa: E402
 import slab_check  # noqa: E402
-from job_steps import Steps  # noqa: E402
+from job_steps import Steps, run  # noqa: E402
 from medium import SKIN1  # noqa: E402
 
 OUT = Path(JOB["out"])
@@ -110,12 +108,4 @@ def main() -> dict[str, Any]:
     }
 
 
-try:
-    print("@skinglow " + json.dumps({"result": main()}, default=np.ndarray.tolist), flush=True)
-    code = 0
-except BaseException:  # any error: on a normal exit the 4.5 wheel would hang in a destructor
-    traceback.print_exc()
-    code = 1
-sys.stdout.flush()
-sys.stderr.flush()
-os._exit(code)
+run(main)

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
-import traceback
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +14,7 @@ JOB: dict[str, Any] = json.loads(Path(sys.argv[-1]).read_text())
 import bpy  # noqa: E402, F401  isort: skip  (importing it makes the others importable)
 import blender_scene as stage  # noqa: E402
 import numpy as np  # noqa: E402
+from job_steps import run  # noqa: E402
 
 
 def main() -> dict[str, Any]:
@@ -32,12 +31,4 @@ def main() -> dict[str, Any]:
     return {"vertices": count, "triangles": len(triangles)}
 
 
-try:
-    print("@skinglow " + json.dumps({"result": main()}), flush=True)
-    code = 0
-except BaseException:  # any error: on a normal exit the 4.5 wheel would hang in a destructor
-    traceback.print_exc()
-    code = 1
-sys.stdout.flush()
-sys.stderr.flush()
-os._exit(code)
+run(main)

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import sys
-import traceback
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +18,7 @@ import bpy  # noqa: E402  isort: skip  (importing it makes the others importable
 import blender_scene as stage  # noqa: E402
 import numpy as np  # noqa: E402
 import shading  # noqa: E402
-from job_steps import Steps  # noqa: E402
+from job_steps import Steps, run  # noqa: E402
 from mathutils import Vector  # noqa: E402
 from medium import SKIN1  # noqa: E402
 
@@ -79,12 +77,4 @@ def main() -> dict[str, Any]:
     return {"blender": JOB["host"], "seconds": seconds}
 
 
-try:
-    print("@skinglow " + json.dumps({"result": main()}), flush=True)
-    code = 0
-except BaseException:  # any error: on a normal exit the 4.5 wheel would hang in a destructor
-    traceback.print_exc()
-    code = 1
-sys.stdout.flush()
-sys.stderr.flush()
-os._exit(code)
+run(main)

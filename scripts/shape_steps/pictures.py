@@ -57,7 +57,7 @@ class Stage:
     progress: Progress
 
     def job(self) -> dict[str, Any]:
-        lamp = self.head.light(self.light)
+        light = self.head.light(self.light)
         radius_mm = float(np.linalg.norm(self.head.vertices[self.head.ear] - self.head.ear_center, axis=1).max())
         return {
             **self.source.job(),
@@ -67,12 +67,12 @@ class Stage:
             "center": list(self.head.ear_center / 1000.0),
             "height": 2.0 * MARGIN * radius_mm / 1000.0,
             "light": {
-                "power": lamp.power,
-                "radius": lamp.radius,
-                "spot_angle": lamp.spot_angle,
-                "spot_blend": lamp.spot_blend,
-                "position": list(lamp.position),
-                "direction": list(lamp.direction),
+                "power": light.power,
+                "radius": light.radius,
+                "spot_angle": light.spot_angle,
+                "spot_blend": light.spot_blend,
+                "position": list(light.position),
+                "direction": list(light.direction),
             },
         }
 

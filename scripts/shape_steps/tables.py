@@ -23,8 +23,8 @@ MAX_THICKNESS_MM = 12.0
 NEAR_MM = 60.0
 
 
-def shape_of(lit: Lit, cell_mm: float, threads: int = 0) -> sg.Shape:
-    """Everything thin on the head, in the medium of the case."""
+def shape_of(lit: Lit, cell_mm: float, threads: int = 0, **asked: np.ndarray) -> sg.Shape:
+    """Everything thin on the head, in the medium of the case; `asked` as skinglow.Shape's points and normals."""
     return sg.Shape(
         lit.head.vertices,
         lit.head.triangles,
@@ -35,6 +35,7 @@ def shape_of(lit: Lit, cell_mm: float, threads: int = 0) -> sg.Shape:
         cell_mm=cell_mm,
         max_thickness_mm=MAX_THICKNESS_MM,
         threads=threads,
+        **asked,
     )
 
 
@@ -147,19 +148,8 @@ def costs(lit: Lit) -> list[Cost]:
     for cell in CELLS_MM:
 
         def prepare(cell: float = cell) -> sg.Shape:
-            shape = sg.Shape(
-                lit.head.vertices,
-                lit.head.triangles,
-                absorption=lit.case.medium.absorption,
-                reduced_scattering=lit.case.medium.reduced_scattering,
-                refractive_index=lit.case.refractive_index,
-                surface=lit.case.surface,
-                cell_mm=cell,
-                max_thickness_mm=MAX_THICKNESS_MM,
-                points=lit.head.vertices[lit.head.ear],
-                normals=lit.head.normals[lit.head.ear],
-                threads=1,
-            )
+            ear = lit.head.ear
+            shape = shape_of(lit, cell, 1, points=lit.head.vertices[ear], normals=lit.head.normals[ear])
             shape.exitance(light_on_ear(lit))
             return shape
 

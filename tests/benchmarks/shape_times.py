@@ -27,8 +27,8 @@ def seconds(work: Callable[[], object], repeats: int = 5) -> float:
     return min(times)
 
 
-def light(place: tuple[float, float, float]) -> sg.Light:
-    return sg.Light("POINT", position=place, power=1e6, radius=20.0)
+def light(position: tuple[float, float, float]) -> sg.Light:
+    return sg.Light("POINT", position=position, power=1e6, radius=20.0)
 
 
 def main(cell_mm: float) -> None:
@@ -54,19 +54,19 @@ def main(cell_mm: float) -> None:
     print(f"cell {cell_mm} mm, {len(one)} points of one ear, three channels, one thread")
     print(f"prepare and first light            {prepare - move:8.3f} s")
     print(f"moved light, irradiance given      {1e3 * move:8.1f} ms")
-    lamp = [light((-160.0, 400.0, 100.0))]
-    ear.light(lamp, reentries=0)
-    print(f"moved light, its shadows traced    {1e3 * seconds(lambda: ear.light(lamp, reentries=0)):8.1f} ms")
-    ear.light(lamp)
-    print(f"the same, two re-entries           {1e3 * seconds(lambda: ear.light(lamp)):8.1f} ms")
-    lit = ear.light(lamp)
+    one = [light((-160.0, 400.0, 100.0))]
+    ear.light(one, reentries=0)
+    print(f"moved light, its shadows traced    {1e3 * seconds(lambda: ear.light(one, reentries=0)):8.1f} ms")
+    ear.light(one)
+    print(f"the same, two re-entries           {1e3 * seconds(lambda: ear.light(one)):8.1f} ms")
+    lit = ear.light(one)
     lit.recolor([(1.0, 0.5, 0.2)])
     print(f"another color                      {1e3 * seconds(lambda: lit.recolor([(1.0, 0.5, 0.2)])):8.3f} ms")
     print(f"memory                             {ear.bytes / len(one) / 1000:8.1f} kB a point")
     ears = make(both)
-    lamps = [light((600.0 * np.cos(t), 400.0, 600.0 * np.sin(t))) for t in np.linspace(0.0, 3.0, 16)]
-    ears.light(lamps, reentries=0)
-    print(f"both ears, 16 lights, all shadows  {1e3 * seconds(lambda: ears.light(lamps, reentries=0)):8.1f} ms")
+    many = [light((600.0 * np.cos(t), 400.0, 600.0 * np.sin(t))) for t in np.linspace(0.0, 3.0, 16)]
+    ears.light(many, reentries=0)
+    print(f"both ears, 16 lights, all shadows  {1e3 * seconds(lambda: ears.light(many, reentries=0)):8.1f} ms")
     reference = float(truth["cpu_s"].sum())
     print(f"Monte Carlo, 7 to 18 % of noise    {reference:8.1f} s = {reference / move:.0f} moved lights")
 

@@ -197,8 +197,8 @@ def test_cells_are_never_larger_than_the_flesh(cell_mm):
 def test_large_triangles_are_solved_all_over(squares):
     def at(cells):
         vertices, triangles = bodies.plate(44.0, 2.0, cells)
-        places = np.array([[0.3, 0.4, 2.0], [5.0, 3.0, 2.0], [-7.0, 9.0, 2.0]])
-        shape = sg.Shape(vertices, triangles, **SKIN, points=places)
+        points = np.array([[0.3, 0.4, 2.0], [5.0, 3.0, 2.0], [-7.0, 9.0, 2.0]])
+        shape = sg.Shape(vertices, triangles, **SKIN, points=points)
         assert len(shape.parts) == 1
         return shape.exitance(np.where(vertices[:, 2] == 0.0, 1.0, 0.0))
 

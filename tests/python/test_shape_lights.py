@@ -17,7 +17,7 @@ LIGHTS = [
 
 
 def assert_close(found, expected):
-    """RMS over mean; single places, where one light is reflected and another comes through, may differ by more."""
+    """RMS over mean; single points, where one light is reflected and another comes through, may differ by more."""
     error = np.sqrt(((found - expected) ** 2).mean(axis=0)) / expected.mean(axis=0)
     assert (error < TOLERANCE).all(), error
 
@@ -112,7 +112,7 @@ def test_lit_skin_keeps_what_comes_through_alone(made):
     lit = made.light(LIGHTS[:1])
     assert (lit.transmitted >= 0.0).all()
     assert (lit.transmitted <= lit.exitance + 1e-9).all()
-    # Where no light falls, on the place and about it, all of it came through. Light from skin to skin counts as lit.
+    # Where no light falls, on the point and about it, all of it came through. Light from skin to skin counts as lit.
     alone = made.light(LIGHTS[:1], reentries=0)
     triangles = bodies.lobe()[1]
     dark = np.ones(len(made.points), bool)

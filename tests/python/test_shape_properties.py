@@ -61,11 +61,11 @@ def test_what_leaves_a_body_that_absorbs_is_less_than_what_enters():
     ("make", "tolerance"),
     [(lambda: bodies.ball(4.0), 0.01), (bodies.lobe, 0.08)],
 )
-@pytest.mark.parametrize("places", [(0, 5), (2, 5), (20, 30)])
-def test_light_from_here_to_there_is_light_from_there_to_here(make, tolerance, places):
+@pytest.mark.parametrize("pair", [(0, 5), (2, 5), (20, 30)])
+def test_light_from_here_to_there_is_light_from_there_to_here(make, tolerance, pair):
     body = make()
     area, vertices = bodies.vertex_areas(body), body[0]
-    near = [np.exp(-np.sum((vertices - vertices[k]) ** 2, axis=1) / 4.0) for k in places]
+    near = [np.exp(-np.sum((vertices - vertices[k]) ** 2, axis=1) / 4.0) for k in pair]
     there = (area * near[1]) @ solve(body, near[0])
     here = (area * near[0]) @ solve(body, near[1])
     np.testing.assert_allclose(there, here, rtol=tolerance)

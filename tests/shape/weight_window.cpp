@@ -13,14 +13,14 @@ constexpr float never = std::numeric_limits<float>::infinity();
 /// Photons lighter than this would be too many to follow.
 constexpr double smallest_weight = 3e-6;
 
-/// Of photons out of reach, and over which way they become so heavy.
+/// Of photons beyond the radius, and over which way they become so heavy.
 constexpr double heaviest = 20.0;
 constexpr double fading_mm = 3.0;
 
 }  // namespace
 
 WeightWindow::WeightWindow(std::span<const DimmedPoint> lit, std::span<const glm::dvec3> targets, double rate,
-                           double reach_mm) {
+                           double radius_mm) {
     if (lit.empty() || targets.empty()) return;
     low_ = targets.front();
     glm::dvec3 high = low_;
@@ -28,9 +28,9 @@ WeightWindow::WeightWindow(std::span<const DimmedPoint> lit, std::span<const glm
         low_ = glm::min(low_, target);
         high = glm::max(high, target);
     }
-    // Out of reach the fewer photons are followed, the farther.
-    low_ -= 2.0 * reach_mm;
-    high += 2.0 * reach_mm;
+    // Beyond the radius fewer photons are followed, the farther, the fewer.
+    low_ -= 2.0 * radius_mm;
+    high += 2.0 * radius_mm;
     for (int axis = 0; axis < 3; ++axis)
         size_[static_cast<std::size_t>(axis)] = static_cast<int>((high[axis] - low_[axis]) / cell_mm_) + 1;
     const std::size_t cells = static_cast<std::size_t>(size_[0]) * size_[1] * size_[2];
@@ -52,7 +52,7 @@ WeightWindow::WeightWindow(std::span<const DimmedPoint> lit, std::span<const glm
     weight_.resize(cells);
     for (std::size_t i = 0; i < cells; ++i) {
         const double weight = std::clamp(std::exp(-static_cast<double>(dimming[i])), smallest_weight, 1.0);
-        const double beyond = distance[i] - reach_mm;
+        const double beyond = distance[i] - radius_mm;
         weight_[i] =
             static_cast<float>(beyond < 0 ? weight : std::min(heaviest, std::exp(beyond / fading_mm)));
     }

@@ -14,7 +14,7 @@ struct DimmedPoint {
     double dimming;       ///< 0 or more
 };
 
-/// What a photon should weigh where it is: as much as light reaches that place, by the crude rule that light
+/// What a photon should weigh where it is: as much as light reaches that point, by the crude rule that light
 /// is dimmed by a rate times the way from the surface that it enters. So photons are as many everywhere,
 /// and those in the dark are light. Only the cost of a Monte Carlo depends on it, not its result.
 class WeightWindow {
@@ -23,12 +23,12 @@ class WeightWindow {
     WeightWindow() = default;
 
     /// @param lit      where light enters
-    /// @param targets  where results are wanted: beyond `reach` of them photons are few
+    /// @param targets  where results are wanted: beyond `radius_mm` of them photons are few
     /// @param rate     1/mm, 0 or more
     WeightWindow(std::span<const DimmedPoint> lit, std::span<const glm::dvec3> targets, double rate,
-                 double reach_mm = 9.0);
+                 double radius_mm = 9.0);
 
-    /// 1 at the brightest place, above 0 everywhere.
+    /// 1 at the brightest point, above 0 everywhere.
     double weight_at(const glm::dvec3& position) const;
 
   private:

@@ -17,7 +17,7 @@
 #include <vector>
 
 /// Light through the real shape of a body: solved in the flesh itself, where a table over thickness takes
-/// each place for a plate. Method, assumptions and measured errors: docs/shape.md. Lengths mm, coefficients
+/// each point for a plate. Method, assumptions and measured errors: docs/shape.md. Lengths mm, coefficients
 /// 1/mm, linear Rec.709.
 /// @code const skinglow::Shape ear(mesh, skinglow::tissue_preset("light").tissue); const
 ///        std::vector<glm::dvec3> exitance = ear.exitance(irradiance_of_each_vertex);
@@ -60,7 +60,7 @@ struct ShapeOptions {
     int threads = 0;  ///< 0: one for each processor. The result does not depend on it.
 };
 
-/// Places on a surface; each counts for the nearest point of the triangles that face along its normal.
+/// Points on a surface; each counts for the nearest point of the triangles that face along its normal.
 struct ShapePoints {
     std::span<const glm::dvec3> points;        ///< units of the mesh, finite; empty: the vertices of the mesh
     std::span<const glm::dvec3> normals = {};  ///< one each, finite, 0: any; empty: all 0
@@ -119,7 +119,7 @@ class LitShape {
     std::vector<glm::dvec3> per_light() const;
 
     /// The exitance with other colors of the lights: no more than sums once per_light() or this was called.
-    /// @param colors  one per light, linear Rec.709, finite, 0 or more; in place of the lights' own
+    /// @param colors  one per light, linear Rec.709, finite, 0 or more; instead of the lights' own
     std::vector<glm::dvec3> recolor(std::span<const glm::dvec3> colors) const;
 
   private:

@@ -22,7 +22,7 @@ struct GltfAccessor {
     double scale = 0.0;                      ///< of normalized numbers; 0: these are not
     const char* bytes = nullptr;             ///< none: all are 0
     std::size_t stride = 0;                  ///< bytes from one element to the next
-    const nlohmann::json* sparse = nullptr;  ///< what is put in place of some of them
+    const nlohmann::json* sparse = nullptr;  ///< what is substituted for some of them
     std::string where;                       ///< name for messages
 };
 

@@ -118,9 +118,9 @@ class GltfReader {
         }
         // The first copy last, since the others are made of it.
         for (std::size_t i = instances.count(); i-- > 0;) {
-            place(original, vertices.subspan(i * positions.count, positions.count), faces.first(triangles),
-                  faces.subspan(i * triangles, triangles), instances.placement(i),
-                  static_cast<std::uint32_t>(first_vertex + i * positions.count));
+            transform(original, vertices.subspan(i * positions.count, positions.count),
+                      faces.first(triangles), faces.subspan(i * triangles, triangles), instances.placement(i),
+                      static_cast<std::uint32_t>(first_vertex + i * positions.count));
         }
     }
 
@@ -191,9 +191,9 @@ class GltfReader {
     }
 
     /// One copy of a primitive. The copy may be the original itself.
-    static void place(std::span<const glm::dvec3> from, std::span<glm::dvec3> to,
-                      std::span<const glm::uvec3> from_faces, std::span<glm::uvec3> to_faces,
-                      const glm::dmat4& placement, std::uint32_t first) {
+    static void transform(std::span<const glm::dvec3> from, std::span<glm::dvec3> to,
+                          std::span<const glm::uvec3> from_faces, std::span<glm::uvec3> to_faces,
+                          const glm::dmat4& placement, std::uint32_t first) {
         const bool moves = placement != glm::dmat4(1.0);
         if (!moves && from.data() == to.data() && first == 0) return;
         for (std::size_t i = 0; i < from.size(); ++i) {

@@ -42,7 +42,7 @@ Out converted(Number number) {
     }
 }
 
-/// `count` numbers that are `stride` bytes apart, to places `out_stride` apart.
+/// `count` numbers that are `stride` bytes apart, to positions `out_stride` apart.
 template <class Number, bool big_endian, class Out>
 void load_numbers(const char* first, std::size_t stride, std::size_t count, Out* out,
                   std::size_t out_stride) {

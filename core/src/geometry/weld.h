@@ -34,26 +34,26 @@ std::uint32_t hash_of(const Vector& value) {
 }
 
 /// Entries that may equal another one, ascending: all that do, and about one in ten of those that do not. Each has a
-/// place by its hash, of two bits: taken, and taken again. Eight places an entry fit into a cache where a table of
+/// slot by its hash, of two bits: taken, and taken again. Eight slots an entry fit into a cache where a table of
 /// entries does not.
 template <typename Vector>
 std::vector<std::uint32_t> possibly_equal(std::span<const Vector> values) {
-    constexpr std::size_t places = 32;  // of a word
-    const std::size_t mask = std::bit_ceil(8 * values.size() + places) - 1;
-    std::vector<std::uint64_t> words((mask + 1) / places);
+    constexpr std::size_t slots = 32;  // of a word
+    const std::size_t mask = std::bit_ceil(8 * values.size() + slots) - 1;
+    std::vector<std::uint64_t> words((mask + 1) / slots);
     std::vector<std::uint32_t> hashes;
     reserve_huge(hashes, values.size());
     hashes.resize(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
         hashes[i] = hash_of(values[i]);
-        std::uint64_t& word = words[(hashes[i] & mask) / places];
-        const std::uint64_t taken = std::uint64_t{1} << 2 * (hashes[i] % places);
+        std::uint64_t& word = words[(hashes[i] & mask) / slots];
+        const std::uint64_t taken = std::uint64_t{1} << 2 * (hashes[i] % slots);
         word |= taken | (word & taken) << 1U;
     }
     std::vector<std::uint32_t> found;
     for (std::size_t i = 0; i < hashes.size(); ++i) {
-        const std::uint64_t word = words[(hashes[i] & mask) / places];
-        if ((word >> 2 * (hashes[i] % places) & 2U) != 0) found.push_back(static_cast<std::uint32_t>(i));
+        const std::uint64_t word = words[(hashes[i] & mask) / slots];
+        if ((word >> 2 * (hashes[i] % slots) & 2U) != 0) found.push_back(static_cast<std::uint32_t>(i));
     }
     return found;
 }

@@ -56,15 +56,15 @@ std::vector<Lean> find_leans(const Body& body, const VoxelGrid& grid, std::span<
         const BoundarySample& s = samples[i];
         const BodyTriangle& t = body.triangles()[s.triangle];
         const glm::vec3 point = body.at(t, s.u, s.v);
-        const glm::ivec3 middle = grid.place_of(point);
+        const glm::ivec3 middle = grid.voxel_of(point);
         for (int n = 0; n < 27; ++n) {
-            const glm::ivec3 place = middle + glm::ivec3(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
-            if (grid.at(place) != VoxelGrid::outside) continue;
-            const glm::vec3 off = grid.center_of(place) - point;
+            const glm::ivec3 voxel = middle + glm::ivec3(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
+            if (grid.at(voxel) != VoxelGrid::outside) continue;
+            const glm::vec3 off = grid.center_of(voxel) - point;
             const float height = std::max(0.0F, glm::dot(off, t.normal));
             const float aside_sq = glm::dot(off, off) - height * height;
             if (aside_sq > max_aside_sq * h * h) continue;
-            std::int32_t& number = index[grid.linear(place)];
+            std::int32_t& number = index[grid.linear(voxel)];
             if (number < 0) number = static_cast<std::int32_t>(grid.size() + ghosts++);
             leans.push_back({static_cast<std::uint32_t>(number) - grid.size(), i,
                              s.area * std::exp(-2 * aside_sq / (h * h)), height});

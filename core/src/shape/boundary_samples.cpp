@@ -17,18 +17,18 @@ constexpr float max_before = 0.3F;
 /// @return false where there is flesh about it and no cell
 bool assign(const VoxelGrid& grid, const glm::vec3& point, const glm::vec3& normal, BoundarySample& sample) {
     const glm::vec3 below = point - normal * (0.5F * grid.cell());
-    const glm::ivec3 middle = grid.place_of(below);
+    const glm::ivec3 middle = grid.voxel_of(below);
     float best = std::numeric_limits<float>::infinity();
     bool has_flesh_left_out = false;
     sample.cell = VoxelGrid::no_cell;
     for (int i = -1; i <= 1; ++i) {
         for (int j = -1; j <= 1; ++j) {
             for (int k = -1; k <= 1; ++k) {
-                const glm::ivec3 place = middle + glm::ivec3(i, j, k);
-                const std::int32_t cell = grid.at(place);
+                const glm::ivec3 voxel = middle + glm::ivec3(i, j, k);
+                const std::int32_t cell = grid.at(voxel);
                 if (cell == VoxelGrid::left_out || cell == VoxelGrid::unknown) has_flesh_left_out = true;
                 if (cell < 0) continue;
-                const glm::vec3 center = grid.center_of(place);
+                const glm::vec3 center = grid.center_of(voxel);
                 const float height = glm::dot(point - center, normal);
                 const glm::vec3 off = center - below;
                 const float distance_sq = glm::dot(off, off);
@@ -61,7 +61,7 @@ BoundarySamples boundary_samples(const FleshSurface& surface, const VoxelGrid& g
                     sample.u = (static_cast<float>(i) + third) / scale;
                     sample.v = (static_cast<float>(j) + third) / scale;
                     const glm::vec3 point = body.at(t, sample.u, sample.v);
-                    if (grid.at(grid.place_of(point)) == VoxelGrid::unknown) continue;
+                    if (grid.at(grid.voxel_of(point)) == VoxelGrid::unknown) continue;
                     if (surface.is_wall(f, sample.u, sample.v)) continue;
                     if (!assign(grid, point, t.normal, sample))
                         result.lost_area += static_cast<double>(sample.area);

@@ -23,8 +23,8 @@ constexpr int max_parts = 400;
 
 void touch(const VoxelGrid& grid, const glm::vec3& point, std::vector<std::uint8_t>& touched) {
     const glm::vec3 around(touch_cells * grid.cell());
-    const glm::ivec3 low = glm::max(grid.place_of(point - around), glm::ivec3(0));
-    const glm::ivec3 high = glm::min(grid.place_of(point + around), grid.extent() - 1);
+    const glm::ivec3 low = glm::max(grid.voxel_of(point - around), glm::ivec3(0));
+    const glm::ivec3 high = glm::min(grid.voxel_of(point + around), grid.extent() - 1);
     for (int x = low.x; x <= high.x; ++x) {
         for (int y = low.y; y <= high.y; ++y) {
             for (int z = low.z; z <= high.z; ++z) touched[grid.linear({x, y, z})] = 1;
@@ -32,9 +32,9 @@ void touch(const VoxelGrid& grid, const glm::vec3& point, std::vector<std::uint8
     }
 }
 
-/// Places whose cube a triangle comes near.
+/// Voxels whose cube a triangle comes near.
 std::vector<std::uint8_t> touched_places(const Body& body, const VoxelGrid& grid) {
-    std::vector<std::uint8_t> touched(grid.places(), 0);
+    std::vector<std::uint8_t> touched(grid.voxels(), 0);
     for (const BodyTriangle& t : body.triangles()) {
         if (!is_near(body, t, grid)) continue;
         const int parts = parts_of(body, t, part_cells * grid.cell());
@@ -48,7 +48,7 @@ std::vector<std::uint8_t> touched_places(const Body& body, const VoxelGrid& grid
     return touched;
 }
 
-/// Answers the places of one block.
+/// Answers the voxels of one block.
 class BlockAsker {
   public:
     BlockAsker(const FleshSurface& surface, const VoxelGrid& grid, std::span<const std::uint8_t> wanted,
@@ -59,9 +59,9 @@ class BlockAsker {
         corner_ = corner;
         bool any = false;
         for (int c = 0; c < block_cells; ++c) {
-            const glm::ivec3 place = place_of(c);
-            const bool has = grid_.has(place);
-            const std::size_t i = has ? grid_.linear(place) : 0;
+            const glm::ivec3 voxel = voxel_of(c);
+            const bool has = grid_.has(voxel);
+            const std::size_t i = has ? grid_.linear(voxel) : 0;
             any = any || (has && wanted_[i] != 0);
             open_[static_cast<std::size_t>(c)] = has && touched_[i] == 0;
             done_[static_cast<std::size_t>(c)] = !has;
@@ -78,13 +78,13 @@ class BlockAsker {
     }
 
   private:
-    glm::ivec3 place_of(int c) const {
+    glm::ivec3 voxel_of(int c) const {
         return corner_ + glm::ivec3(c / (edge * edge), c / edge % edge, c % edge);
     }
-    double winding(int c) const { return surface_.tree().winding(grid_.center_of(place_of(c))); }
+    double winding(int c) const { return surface_.tree().winding(grid_.center_of(voxel_of(c))); }
     void answer(int c, bool is_flesh) {
         done_[static_cast<std::size_t>(c)] = true;
-        const std::size_t i = grid_.linear(place_of(c));
+        const std::size_t i = grid_.linear(voxel_of(c));
         if (wanted_[i] != 0) flesh_[i] = is_flesh ? 1 : 0;
     }
 
@@ -147,7 +147,7 @@ int parts_of(const Body& body, const BodyTriangle& t, float length) {
 std::vector<std::uint8_t> find_flesh(const FleshSurface& surface, const VoxelGrid& grid,
                                      std::span<const std::uint8_t> wanted, int threads) {
     const std::vector<std::uint8_t> touched = touched_places(surface.body(), grid);
-    std::vector<std::uint8_t> flesh(grid.places(), 0);
+    std::vector<std::uint8_t> flesh(grid.voxels(), 0);
     const glm::ivec3 blocks = (grid.extent() + edge - 1) / edge;
     const auto count = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y);
     const auto work = [&](std::size_t begin, std::size_t end) {

@@ -8,11 +8,11 @@
 
 namespace skinglow::detail {
 
-/// Which places of a grid's box have their center in flesh. Cells that no triangle comes near are alike as
+/// Which voxels of a grid's box have their center in flesh. Cells that no triangle comes near are alike as
 /// far as they hang together, and asked in blocks; where the mesh is open and the answer changes between
 /// them, one by one.
-/// @param wanted  not 0 where it matters, one per place
-/// @return not 0: flesh, one per place; 0 where it does not matter
+/// @param wanted  not 0 where it matters, one per voxel
+/// @return not 0: flesh, one per voxel; 0 where it does not matter
 std::vector<std::uint8_t> find_flesh(const FleshSurface& surface, const VoxelGrid& grid,
                                      std::span<const std::uint8_t> wanted, int threads);
 

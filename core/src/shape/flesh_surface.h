@@ -24,7 +24,7 @@ class FleshSurface {
     /// Whether a point is in flesh.
     bool is_inside(const glm::vec3& point) const { return tree_.winding(point) > 0.5; }
 
-    /// Whether a place of a triangle is a wall inside flesh.
+    /// Whether a point of a triangle is a wall inside flesh.
     bool is_wall(std::uint32_t triangle, float u, float v) const {
         const Kind kind = kind_of(triangle);
         return kind == Kind::wall || (kind == Kind::mixed && lies_inside(triangle, u, v));
@@ -36,7 +36,7 @@ class FleshSurface {
     /// @param direction  unit length
     std::optional<TriangleHit> nearest(const glm::vec3& origin, const glm::vec3& direction, float from) const;
 
-    /// Whether the surface stops a ray that begins at a place of it and goes outward.
+    /// Whether the surface stops a ray that begins at a point of it and goes outward.
     /// @param direction  unit length
     bool blocks(const glm::vec3& origin, const glm::vec3& direction, float to) const {
         return rays_.occluded(origin, direction, gap_, to);

@@ -15,8 +15,8 @@
 namespace skinglow::detail {
 namespace {
 
-/// Rays end where all nodes have fallen to exp(-reach).
-constexpr float reach = 7;
+/// Rays end where all nodes have fallen to exp(-max_optical_depth).
+constexpr float max_optical_depth = 7;
 /// Steps along a ray, in cells.
 constexpr float step_cells = 0.6F;
 constexpr int max_bounces = 6;
@@ -59,7 +59,7 @@ class FlightTracer {
           transmittance_(static_cast<float>(medium[0].transmittance)),
           extinction_(medium.lanes([](const Sp3Medium& m) { return m.extinction; })),
           scattered_(medium.lanes([](const Sp3Medium& m) { return 0.25 * m.albedo; })),
-          max_length_(reach / static_cast<float>(medium.min_extinction())),
+          max_length_(max_optical_depth / static_cast<float>(medium.min_extinction())),
           step_(step_cells * grid.cell()),
           per_step_(decay(step_)),
           max_extinction_(std::max({extinction_[0], extinction_[1], extinction_[2], extinction_[3]})),
@@ -182,12 +182,12 @@ class FlightTracer {
             const glm::vec3 at = start + ray.direction * ((done + center) * scale);
             const glm::vec3 low = glm::floor(at);
             const glm::vec3 f = at - low;
-            const glm::ivec3 place(low);
+            const glm::ivec3 voxel(low);
             std::array<std::int32_t, 8> cell;
             std::array<float, 8> part;
             float sum = 0;
             for (int c = 0; c < 8; ++c) {
-                const glm::ivec3 corner = place + glm::ivec3(c >> 2, (c >> 1) & 1, c & 1);
+                const glm::ivec3 corner = voxel + glm::ivec3(c >> 2, (c >> 1) & 1, c & 1);
                 const auto i = static_cast<std::size_t>(c);
                 cell[i] = grid_.has(corner) ? ghosts_.index[grid_.linear(corner)] : VoxelGrid::unknown;
                 part[i] = cell[i] < 0 ? 0.0F

@@ -8,16 +8,16 @@
 namespace skinglow::detail {
 namespace {
 
-/// All places that the exitance of the sites is a mean over, no farther apart than half the margin.
+/// All points that the exitance of the sites is a mean over, no farther apart than half the margin.
 std::vector<glm::vec3> places_of(const Body& body, const SurfaceSites& all,
                                  std::span<const std::uint32_t> sites, double margin) {
-    std::vector<glm::vec3> places;
-    places.reserve(sites.size());
+    std::vector<glm::vec3> points;
+    points.reserve(sites.size());
     for (const std::uint32_t i : sites) {
         const auto spread = all.spread(body, all.sites()[i], static_cast<float>(0.5 * margin));
-        places.insert(places.end(), spread.begin(), spread.end());
+        points.insert(points.end(), spread.begin(), spread.end());
     }
-    return places;
+    return points;
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ PartField PartSolver::solve(std::span<const Lanes> light, double tolerance) cons
 
 bool PartSolver::covers(const Site& site) const {
     return site.on_surface &&
-           grid_.at(grid_.place_of(site.position - site.normal * (0.5F * grid_.cell()))) >= 0;
+           grid_.at(grid_.voxel_of(site.position - site.normal * (0.5F * grid_.cell()))) >= 0;
 }
 
 void PartSolver::exitance(const LastFlight& flight, const PartField& field, std::span<const Lanes> light,

@@ -11,7 +11,7 @@ namespace {
 /// Flesh about a thin site counts up to this many lengths over which the least absorbed light falls to 1/e.
 constexpr double margin_in_decays = 2;
 constexpr double margin_in_cells = 4;
-/// Cells through the thin places of a part, at least; and where cells are longer than a mean free path. Not
+/// Cells through the thin regions of a part, at least; and where cells are longer than a mean free path. Not
 /// below a part of the cell that is asked for.
 constexpr double cells_through = 1.2;
 constexpr double coarse_cells_through = 3;

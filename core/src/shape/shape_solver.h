@@ -27,7 +27,7 @@ struct SiteLight {
 /// May be asked from many threads at once.
 class ShapeSolver {
   public:
-    /// @param points   places whose exitance is asked, units of the mesh; none: its vertices
+    /// @param points   points whose exitance is asked, units of the mesh; none: its vertices
     /// @param normals  one each; none: of the nearest triangle
     /// @param done     told the fraction done, in [0, 1]
     ShapeSolver(const MeshView& mesh, std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals,

@@ -30,7 +30,7 @@ void sum_runs(const SpectralSamples& samples, std::span<const float> at_nodes, f
     for (const SpectralSamples::Run& run : samples.runs) {
         const float first = at_nodes[run.segment];
         const float second = at_nodes[run.segment + 1];
-        // A polynomial may swing between nodes that differ by orders of magnitude: it stays between its
+        // A polynomial may oscillate between nodes that differ by orders of magnitude: it stays between its
         // neighbors. exp is 0 below -87, not far above the least number there is.
         const Vector low = hn::Set(tag, std::max(-86.0F, run.between ? std::min(first, second) : -86.0F));
         const Vector high = hn::Set(tag, std::max(-86.0F, run.between ? std::max(first, second) : limit));

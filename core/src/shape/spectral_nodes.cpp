@@ -92,11 +92,11 @@ std::vector<Medium> inner_media(const Tissue& tissue, std::span<const double> wa
 }
 
 /// A medium on the line that the wavelengths' media form when they are sorted by attenuation.
-struct Place {
+struct NodePosition {
     std::size_t below;  ///< among the sorted
     double fraction;    ///< of the way to the next one
 };
-Place place_of(std::span<const Medium> sorted, double attenuation) {
+NodePosition position_of(std::span<const Medium> sorted, double attenuation) {
     const auto above = std::upper_bound(sorted.begin() + 1, sorted.end() - 1, attenuation,
                                         [](double x, const Medium& m) { return x < m.attenuation; });
     const auto below = static_cast<std::size_t>(above - sorted.begin()) - 1;
@@ -118,7 +118,7 @@ TwoLogs plate(const Medium& medium, double refractive_index) {
     return logs;
 }
 
-/// The place between nodes whose light falls from the first to the second thickness as the skin's does. It
+/// The position between nodes whose light falls from the first to the second thickness as the skin's does. It
 /// falls the faster, the farther right.
 double matching_place(const NodeInterpolation& nodes, std::span<const double> falls, double fall,
                       double end) {
@@ -154,21 +154,21 @@ SpectralNodes spectral_nodes(const Tissue& tissue, int count) {
     // The nodes, evenly spread, and what plates of their media transmit.
     const double first = sorted.front().attenuation;
     const double last = std::min(sorted.back().attenuation, std::max(largest_node_attenuation, 2.0 * first));
-    std::vector<Place> places;
-    places.reserve(static_cast<std::size_t>(count));
+    std::vector<NodePosition> positions;
+    positions.reserve(static_cast<std::size_t>(count));
     std::vector<double> at;
     std::vector<double> thin;   // logarithm of the transmittance at the first thickness, per node
     std::vector<double> falls;  // and by how much it falls to the second
     std::vector<Medium> node_media;
     node_media.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
-        const Place place = place_of(sorted, first + (last - first) * i / (count - 1));
-        const Medium& a = sorted[place.below];
-        const Medium& b = sorted[place.below + 1];
-        const Medium medium(std::lerp(a.absorption, b.absorption, place.fraction),
-                            std::lerp(a.reduced_scattering, b.reduced_scattering, place.fraction));
+        const NodePosition position = position_of(sorted, first + (last - first) * i / (count - 1));
+        const Medium& a = sorted[position.below];
+        const Medium& b = sorted[position.below + 1];
+        const Medium medium(std::lerp(a.absorption, b.absorption, position.fraction),
+                            std::lerp(a.reduced_scattering, b.reduced_scattering, position.fraction));
         const TwoLogs logs = plate(medium, tissue.refractive_index);
-        places.push_back(place);
+        positions.push_back(position);
         node_media.push_back(medium);
         at.push_back(medium.attenuation);
         thin.push_back(logs[0]);
@@ -194,12 +194,12 @@ SpectralNodes spectral_nodes(const Tissue& tissue, int count) {
         samples.push_back(sample);
     }
     result.samples = in_runs(samples, static_cast<std::size_t>(count));
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
         constexpr double smallest_factor = 1e-12;  // of a node behind an epidermis that lets nothing through
-        const Place& place = places[i];
-        const double factor =
-            std::sqrt(std::max(smallest_factor, std::lerp(factors[order[place.below]],
-                                                          factors[order[place.below + 1]], place.fraction)));
+        const NodePosition& position = positions[i];
+        const double factor = std::sqrt(
+            std::max(smallest_factor, std::lerp(factors[order[position.below]],
+                                                factors[order[position.below + 1]], position.fraction)));
         result.nodes.push_back({node_media[i].absorption, node_media[i].reduced_scattering, factor, factor});
     }
     return result;

@@ -17,9 +17,9 @@ namespace skinglow::detail {
 /// light is solved; between them the logarithm of the exitance is a polynomial in the effective attenuation.
 ///
 /// The epidermis is no part of a node's medium but a factor on what enters and leaves. Each of the 81
-/// wavelengths has a factor and a place between the nodes, both chosen so that plane skin 1.5 and 6 mm thick
+/// wavelengths has a factor and a position between the nodes, both chosen so that plane skin 1.5 and 6 mm thick
 /// transmits what the layered transport solution (slab.h) says at that wavelength. Its own effective
-/// attenuation would be a poorer place: media that share one differ in their albedo, which costs 5 to 20 %.
+/// attenuation would be a poorer position: media that share one differ in their albedo, which costs 5 to 20 %.
 struct SpectralNodes {
     static constexpr int min_count = 2;
     static constexpr int max_count = max_spectral_nodes;

@@ -24,17 +24,17 @@ struct SpectralSample {
 /// The polynomial through values at the nodes, and straight lines beyond the first and the last.
 class NodeInterpolation {
   public:
-    /// @param at  places of the nodes, ascending, two or more
+    /// @param at  positions of the nodes, ascending, two or more
     explicit NodeInterpolation(std::vector<double> at) : at_(std::move(at)) {}
 
-    /// Weights, segment and whether the place lies between nodes; no matrix yet.
+    /// Weights, segment and whether the position lies between nodes; no matrix yet.
     SpectralSample at(double x) const;
 
   private:
     std::vector<double> at_;
 };
 
-/// A polynomial may swing between nodes that differ by orders of magnitude: it stays between its neighbors.
+/// A polynomial may oscillate between nodes that differ by orders of magnitude: it stays between its neighbors.
 double value_of(const SpectralSample& sample, std::span<const double> at_nodes);
 
 /// How wavelengths come about from the nodes. Those that stand alike to the nodes follow each other, a run,

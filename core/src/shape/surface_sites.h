@@ -15,7 +15,7 @@ struct SitePiece {
     std::uint8_t corner;
 };
 
-/// A place whose exitance is asked: a vertex, which stands for the mean about it weighted by its hat
+/// A point whose exitance is asked: a vertex, which stands for the mean about it weighted by its hat
 /// function, or a point.
 struct Site {
     glm::vec3 position;  ///< mm
@@ -26,7 +26,7 @@ struct Site {
     bool on_surface = false;   ///< false: a vertex without triangles
 };
 
-/// All places that are asked. Vertices at one position whose triangles go smoothly on are one site.
+/// All points that are asked. Vertices at one position whose triangles go smoothly on are one site.
 class SurfaceSites {
   public:
     /// The vertices of the mesh given.

@@ -46,8 +46,8 @@ VertexLight::VertexLight(const FleshSurface& surface, std::span<const glm::dvec3
     for (std::uint32_t v = 0; v < wanted.size(); ++v) {
         if (wanted[v] != 0) wanted_.push_back(v);
     }
-    places_.reserve(wanted_.size());
-    for (const std::uint32_t v : wanted_) places_.push_back(place_of(v));
+    receivers_.reserve(wanted_.size());
+    for (const std::uint32_t v : wanted_) receivers_.push_back(receiver_of(v));
     for (const BodyTriangle& t : surface.body().triangles()) {
         if ((wanted[t.corners.x] | wanted[t.corners.y] | wanted[t.corners.z]) != 0)
             triangles_.push_back(t.corners);
@@ -55,7 +55,7 @@ VertexLight::VertexLight(const FleshSurface& surface, std::span<const glm::dvec3
     if (options.occluders != nullptr) excluded_ = options.occluders->scene().triangles_of(options.excluded);
 }
 
-VertexLight::Place VertexLight::place_of(std::uint32_t vertex) const {
+VertexLight::Receiver VertexLight::receiver_of(std::uint32_t vertex) const {
     const Site& site = sites_.sites()[sites_.site_of()[vertex]];
     const float lift = std::max(lift_mm, 4 * surface_.gap());
     const glm::dvec3 normal(site.normal);
@@ -64,18 +64,18 @@ VertexLight::Place VertexLight::place_of(std::uint32_t vertex) const {
             size > 0 ? normal / size : glm::dvec3(0.0)};
 }
 
-bool VertexLight::sees(const Place& place, const glm::dvec3& direction, double distance) const {
+bool VertexLight::sees(const Receiver& receiver, const glm::dvec3& direction, double distance) const {
     const double mm = std::min(distance * unit_mm_, static_cast<double>(std::numeric_limits<float>::max()));
-    if (surface_.blocks(place.origin, direction, static_cast<float>(mm))) return false;
+    if (surface_.blocks(receiver.origin, direction, static_cast<float>(mm))) return false;
     return options_.occluders == nullptr ||
-           !options_.occluders->scene().occluded(place.point, direction, distance, excluded_);
+           !options_.occluders->scene().occluded(receiver.point, direction, distance, excluded_);
 }
 
-double VertexLight::fraction(const RigLight& light, const Place& place, std::uint32_t vertex,
+double VertexLight::fraction(const RigLight& light, const Receiver& receiver, std::uint32_t vertex,
                              int samples) const {
     return visible_fraction_at(
-        light.light, place.point, place.normal, vertex, samples,
-        [&](const LightSample& ray) { return sees(place, ray.direction, ray.distance); });
+        light.light, receiver.point, receiver.normal, vertex, samples,
+        [&](const LightSample& ray) { return sees(receiver, ray.direction, ray.distance); });
 }
 
 std::vector<std::uint8_t> VertexLight::doubtful(std::span<const float> fraction) const {
@@ -102,13 +102,13 @@ std::vector<float> VertexLight::of_light(const RigLight& light) const {
     const auto first = [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t v = wanted_[i];
-            const Place& place = places_[i];
-            if (place.normal == glm::dvec3(0.0)) continue;
-            const double open = light.light.irradiance(place.point, place.normal, area_tolerance);
+            const Receiver& receiver = receivers_[i];
+            if (receiver.normal == glm::dvec3(0.0)) continue;
+            const double open = light.light.irradiance(receiver.point, receiver.normal, area_tolerance);
             if (!(open > 0)) continue;
             irradiance[v] = static_cast<float>(open * light.power);
-            const int samples = is_narrow(light.light, place.point) ? 1 : first_samples;
-            seen[v] = static_cast<float>(fraction(light, place, v, std::min(samples, options_.samples)));
+            const int samples = is_narrow(light.light, receiver.point) ? 1 : first_samples;
+            seen[v] = static_cast<float>(fraction(light, receiver, v, std::min(samples, options_.samples)));
         }
     };
     for_each_block(wanted_.size(), options_.threads, first, {}, block);
@@ -117,7 +117,8 @@ std::vector<float> VertexLight::of_light(const RigLight& light) const {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t v = wanted_[i];
             if (seen[v] == no_light) continue;
-            if (again[v] != 0) seen[v] = static_cast<float>(fraction(light, places_[i], v, options_.samples));
+            if (again[v] != 0)
+                seen[v] = static_cast<float>(fraction(light, receivers_[i], v, options_.samples));
             irradiance[v] *= seen[v];
         }
     };
@@ -130,18 +131,18 @@ std::vector<glm::vec3> VertexLight::of_environment(const Environment& environmen
     std::vector<glm::vec3> result(vertices_.size(), glm::vec3(0.0F));
     const auto work = [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const Place& place = places_[i];
-            if (place.normal == glm::dvec3(0.0)) continue;
-            const glm::dmat3 frame = frame_around(place.normal);
+            const Receiver& receiver = receivers_[i];
+            if (receiver.normal == glm::dvec3(0.0)) continue;
+            const glm::dmat3 frame = frame_around(receiver.normal);
             // The harmonics' sum over all rays is not exactly their integral: only what is hidden is summed.
             glm::dvec3 hidden(0.0);
             for (const glm::dvec3& local : directions) {
                 const glm::dvec3 direction = frame * local;
-                if (sees(place, direction, std::numeric_limits<double>::infinity())) continue;
+                if (sees(receiver, direction, std::numeric_limits<double>::infinity())) continue;
                 const auto harmonics = spherical_harmonics(direction);
                 for (std::size_t k = 0; k < 9; ++k) hidden += environment.coefficients()[k] * harmonics[k];
             }
-            const glm::dvec3 open = environment.irradiance(place.normal);
+            const glm::dvec3 open = environment.irradiance(receiver.normal);
             const glm::dvec3 lost = hidden * (std::numbers::pi / sky_rays);
             result[wanted_[i]] = glm::clamp(open - lost, glm::dvec3(0.0), open);
         }

@@ -40,14 +40,14 @@ class VertexLight {
     std::vector<glm::vec3> of_environment(const Environment& environment) const;
 
   private:
-    struct Place {
+    struct Receiver {
         glm::dvec3 point;   ///< world
         glm::vec3 origin;   ///< where rays begin, mm about the body's center
         glm::dvec3 normal;  ///< unit; 0: receives nothing
     };
-    Place place_of(std::uint32_t vertex) const;
-    bool sees(const Place& place, const glm::dvec3& direction, double distance) const;
-    double fraction(const RigLight& light, const Place& place, std::uint32_t vertex, int samples) const;
+    Receiver receiver_of(std::uint32_t vertex) const;
+    bool sees(const Receiver& receiver, const glm::dvec3& direction, double distance) const;
+    double fraction(const RigLight& light, const Receiver& receiver, std::uint32_t vertex, int samples) const;
     std::vector<std::uint8_t> doubtful(std::span<const float> fraction) const;
 
     const FleshSurface& surface_;
@@ -55,7 +55,7 @@ class VertexLight {
     const SurfaceSites& sites_;
     double unit_mm_;
     std::vector<std::uint32_t> wanted_;
-    std::vector<Place> places_;          ///< of the wanted
+    std::vector<Receiver> receivers_;    ///< of the wanted
     std::vector<glm::uvec3> triangles_;  ///< that a wanted vertex is a corner of
     ShadowOptions options_;
     std::vector<TriangleRange> excluded_;

@@ -34,9 +34,9 @@ struct Run {
 
 std::vector<Run> ball_runs(double radius_in_cells) {
     std::vector<Run> runs;
-    const int reach = static_cast<int>(std::ceil(radius_in_cells));
-    for (int x = -reach; x <= reach; ++x) {
-        for (int y = -reach; y <= reach; ++y) {
+    const int steps = static_cast<int>(std::ceil(radius_in_cells));
+    for (int x = -steps; x <= steps; ++x) {
+        for (int y = -steps; y <= steps; ++y) {
             const double left = radius_in_cells * radius_in_cells - x * x - y * y;
             if (left >= 0) runs.push_back({x, y, static_cast<int>(std::sqrt(left))});
         }
@@ -48,11 +48,11 @@ std::vector<Run> ball_runs(double radius_in_cells) {
 
 double box_places(std::span<const glm::vec3> centers, double margin, double cell) {
     const Bounds bounds = bounds_of(centers);
-    double places = 1;
+    double voxels = 1;
     for (int k = 0; k < 3; ++k)
-        places *=
+        voxels *=
             (static_cast<double>(bounds.high[k] - bounds.low[k]) + 2 * margin) / cell + 2 * rim_cells + 3;
-    return places;
+    return voxels;
 }
 
 VoxelGrid::VoxelGrid(const FleshSurface& surface, std::span<const glm::vec3> centers, double margin,
@@ -68,7 +68,7 @@ VoxelGrid::VoxelGrid(const FleshSurface& surface, std::span<const glm::vec3> cen
     number_cells();
 }
 
-glm::ivec3 VoxelGrid::place_of(const glm::vec3& point) const {
+glm::ivec3 VoxelGrid::voxel_of(const glm::vec3& point) const {
     return glm::ivec3(glm::floor((point - low_) / cell_));
 }
 
@@ -80,17 +80,17 @@ void VoxelGrid::fit(std::span<const glm::vec3> centers, double margin) {
 }
 
 std::vector<std::uint8_t> VoxelGrid::mark_near(std::span<const glm::vec3> centers, double margin) const {
-    std::vector<std::uint8_t> near(places(), 0);
-    std::vector<std::uint64_t> places;
-    places.reserve(centers.size());
-    for (const glm::vec3& p : centers) places.push_back(linear(place_of(p)));
-    std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end()), places.end());
+    std::vector<std::uint8_t> near(voxels(), 0);
+    std::vector<std::uint64_t> voxels;
+    voxels.reserve(centers.size());
+    for (const glm::vec3& p : centers) voxels.push_back(linear(voxel_of(p)));
+    std::sort(voxels.begin(), voxels.end());
+    voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
     const double radius = margin / static_cast<double>(cell_);
     const auto mark = [&](const std::vector<Run>& runs, std::uint8_t value) {
-        for (const std::uint64_t place : places) {
-            const auto z = static_cast<int>(place % static_cast<std::uint64_t>(extent_.z));
-            const auto row = static_cast<int>(place / static_cast<std::uint64_t>(extent_.z));
+        for (const std::uint64_t voxel : voxels) {
+            const auto z = static_cast<int>(voxel % static_cast<std::uint64_t>(extent_.z));
+            const auto row = static_cast<int>(voxel / static_cast<std::uint64_t>(extent_.z));
             for (const Run& run : runs) {
                 const glm::ivec3 first(row / extent_.y + run.x, row % extent_.y + run.y, z - run.half);
                 if (!has({first.x, first.y, 0})) continue;
@@ -117,9 +117,9 @@ void VoxelGrid::number_cells() {
     const auto z_extent = static_cast<std::uint64_t>(extent_.z);
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const auto row = static_cast<int>(cells[c] / z_extent);
-        const glm::ivec3 place(row / extent_.y, row % extent_.y, static_cast<int>(cells[c] % z_extent));
+        const glm::ivec3 voxel(row / extent_.y, row % extent_.y, static_cast<int>(cells[c] % z_extent));
         for (int d = 0; d < 6; ++d) {
-            glm::ivec3 next = place;
+            glm::ivec3 next = voxel;
             next[d / 2] += d % 2 == 0 ? -1 : 1;
             const std::int32_t found = at(next);
             neighbors_[c].cell[static_cast<std::size_t>(d)] =

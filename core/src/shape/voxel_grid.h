@@ -36,18 +36,18 @@ class VoxelGrid {
     float cell() const { return cell_; }
     const Neighbors& neighbors(std::uint32_t cell) const { return neighbors_[cell]; }
 
-    /// The place of the cell that holds a point.
-    glm::ivec3 place_of(const glm::vec3& point) const;
-    bool has(const glm::ivec3& place) const {
-        return place.x >= 0 && place.y >= 0 && place.z >= 0 && place.x < extent_.x && place.y < extent_.y &&
-               place.z < extent_.z;
+    /// The voxel of the cell that holds a point.
+    glm::ivec3 voxel_of(const glm::vec3& point) const;
+    bool has(const glm::ivec3& voxel) const {
+        return voxel.x >= 0 && voxel.y >= 0 && voxel.z >= 0 && voxel.x < extent_.x && voxel.y < extent_.y &&
+               voxel.z < extent_.z;
     }
-    /// Number of the cell at a place, or one of the constants above.
-    std::int32_t at(const glm::ivec3& place) const { return has(place) ? index_[linear(place)] : unknown; }
-    glm::vec3 center_of(const glm::ivec3& place) const { return low_ + (glm::vec3(place) + 0.5F) * cell_; }
+    /// Number of the cell at a voxel, or one of the constants above.
+    std::int32_t at(const glm::ivec3& voxel) const { return has(voxel) ? index_[linear(voxel)] : unknown; }
+    glm::vec3 center_of(const glm::ivec3& voxel) const { return low_ + (glm::vec3(voxel) + 0.5F) * cell_; }
     const glm::vec3& low() const { return low_; }
     const glm::ivec3& extent() const { return extent_; }
-    std::size_t places() const {
+    std::size_t voxels() const {
         return static_cast<std::size_t>(extent_.x) * static_cast<std::size_t>(extent_.y) *
                static_cast<std::size_t>(extent_.z);
     }
@@ -74,7 +74,7 @@ class VoxelGrid {
     std::vector<Neighbors> neighbors_;
 };
 
-/// Number of places of the box that a grid would have: what it costs at least.
+/// Number of voxels of the box that a grid would have: what it costs at least.
 double box_places(std::span<const glm::vec3> centers, double margin, double cell);
 
 }  // namespace skinglow::detail

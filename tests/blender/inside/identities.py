@@ -13,7 +13,7 @@ THIN = [0.0, 1.0, 2.0, 3.0]
 def linked_copy(work, name):
     """A skin of that name from a library, half as large."""
     obj = patch(name, 1.0)
-    add_light("Other lamp")
+    add_light("Other light")
     sb.make_skin(obj, thickness=THIN, mode="physical")
     bpy.ops.wm.save_as_mainfile(filepath=str(work / "library.blend"))
     bpy.ops.wm.read_factory_settings(use_empty=True)
