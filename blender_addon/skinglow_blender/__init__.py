@@ -10,30 +10,16 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any
 
-from . import (
-    batch,
-    bundled_core,
-    handlers,
-    light_list,
-    light_listing,
-    lut_preview,
-    measuring_operators,
-    menus,
-    operators,
-    panel,
-    povray_export,
-    scene_settings,
-    skin,
-    skin_settings,
-)
-from . import (
-    health as skin_health,
-)
+from . import batch, bundled_core, scene_settings, skin_settings
 from .batch import BatchResult, BatchStep, Rig
+from .commands import health as skin_health
+from .commands import light_listing, povray_export, skin
+from .commands.health import Fault
+from .commands.skin import SkinState
 from .errors import SkinError
-from .health import Fault
-from .live_update import Rebuilt
-from .skin import SkinState
+from .live import handlers
+from .live.live_update import Rebuilt
+from .ui import light_list, lut_preview, measuring_operators, menus, operators, panel
 
 bl_info = {
     "name": "Skinglow",

@@ -22,7 +22,7 @@ if os.environ.get("SKINGLOW_SITE"):
 
 import bpy  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
-from skinglow_blender import handlers  # noqa: E402
+from skinglow_blender.live import handlers  # noqa: E402
 
 EDITS = 100
 

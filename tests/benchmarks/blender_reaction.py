@@ -28,7 +28,9 @@ if os.environ.get("SKINGLOW_SITE"):
 
 import bpy  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
-from skinglow_blender import handlers, live_update, lut_image, skin_tables  # noqa: E402
+from skinglow_blender.live import handlers, live_update  # noqa: E402
+from skinglow_blender.show import lut_image  # noqa: E402
+from skinglow_blender.table import skin_tables  # noqa: E402
 
 CHANGES = 300
 

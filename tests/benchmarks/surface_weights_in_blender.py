@@ -27,8 +27,8 @@ import numpy as np  # noqa: E402
 import skinglow as sg  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
 from skinglow_blender import blender_version  # noqa: E402
-from skinglow_blender.scene_lights import make_light  # noqa: E402
-from skinglow_blender.scene_reading import read_scene  # noqa: E402
+from skinglow_blender.read.scene_lights import make_light  # noqa: E402
+from skinglow_blender.read.scene_reading import read_scene  # noqa: E402
 
 SEGMENTS, RINGS = 200, 100
 DEPTH = 0.05

@@ -70,3 +70,25 @@ def test_no_file_is_long() -> None:
 def test_picture_of_the_architecture_is_up_to_date() -> None:
     picture = (ROOT / "docs" / "images" / "architecture.svg").read_text()
     assert includes.arrows_text(CORE).replace(">", "&gt;") in picture, "run scripts/architecture"
+
+
+ADDON = ROOT / "blender_addon" / "skinglow_blender"
+#: The add-on's folders, lowest first: a module imports from its own folder, from lower ones and from the add-on's root.
+ADDON_FLOORS = ("read", "thickness", "table", "show", "live", "commands", "batch", "ui")
+
+
+def test_every_folder_of_the_addon_is_a_floor() -> None:
+    assert sorted(ADDON_FLOORS) == sorted(path.parent.name for path in ADDON.glob("*/__init__.py"))
+
+
+@pytest.mark.parametrize("floor", ("", *ADDON_FLOORS))
+def test_no_import_of_the_addon_runs_to_a_higher_floor(floor: str) -> None:
+    files = [path for path in (ADDON / floor).glob("*.py") if path != ADDON / "__init__.py"]
+    assert files
+    wrong = []
+    for path in files:
+        for module in re.findall(r"from \.\.(\w+)" if floor else r"from \.(\w+)", path.read_text()):
+            allowed = ADDON_FLOORS[: ADDON_FLOORS.index(floor)] if floor else ()
+            if module in ADDON_FLOORS and module not in allowed:
+                wrong.append(f"{path.relative_to(ADDON)} imports {module}")
+    assert not wrong

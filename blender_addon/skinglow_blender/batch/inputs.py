@@ -9,7 +9,7 @@ import bpy
 
 from .. import blender_version
 from ..errors import core
-from ..scene_lights import read_light
+from ..read.scene_lights import read_light
 from ..skin_settings import SETTING_NAMES
 from .manifest import data_digest, file_digest
 from .rigs import ReadyRig, light_objects

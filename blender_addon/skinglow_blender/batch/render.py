@@ -10,11 +10,11 @@ from typing import Any, NamedTuple
 
 import bpy
 
+from ..commands.health import require_health
+from ..commands.skin import skin_settings_of
 from ..errors import SkinError
-from ..health import require_health
-from ..live_update import update_scene
-from ..scene_reading import read_skin
-from ..skin import skin_settings_of
+from ..live.live_update import update_scene
+from ..read.scene_reading import read_skin
 from .frames import parse_frames
 from .inputs import rig_inputs, scene_inputs
 from .manifest import Manifest

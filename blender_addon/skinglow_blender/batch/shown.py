@@ -10,10 +10,10 @@ from typing import Any
 import bpy
 import numpy as np
 
-from .. import light_listing, skin
+from ..commands import light_listing, skin
 from ..errors import SkinError
-from ..live_update import STATE
-from ..scene_reading import read_scene, read_skin
+from ..live.live_update import STATE
+from ..read.scene_reading import read_scene, read_skin
 from .inputs import skin_values
 
 

@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import skinglow_blender as sb
-from skinglow_blender import handlers
+from skinglow_blender.live import handlers
 
 from inside.always_right import THIN, skin
 from inside.scenes import add_light, assert_fresh, assert_shows, depsgraph, fresh_table, link, paper_table, patch

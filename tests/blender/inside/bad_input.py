@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import skinglow as sg
 import skinglow_blender as sb
-from skinglow_blender import live_update
+from skinglow_blender.live import live_update
 
 from inside.scenes import add_light, assert_shows, camera_above, depsgraph, paper_table, patch
 

@@ -3,7 +3,8 @@
 import bpy
 import numpy as np
 import skinglow_blender as sb
-from skinglow_blender import live_update, menus
+from skinglow_blender.live import live_update
+from skinglow_blender.ui import menus
 
 from inside.scenes import add_light, assert_fresh, camera_above, depsgraph, patch
 

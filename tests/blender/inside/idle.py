@@ -4,7 +4,7 @@ from contextlib import contextmanager
 
 import bpy
 import skinglow_blender as sb
-from skinglow_blender import live_update
+from skinglow_blender.live import live_update
 
 from inside.scenes import add_light, assert_shows, depsgraph, link, paper_table, patch
 

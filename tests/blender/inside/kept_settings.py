@@ -5,8 +5,8 @@ import math
 import bpy
 import numpy as np
 import skinglow_blender as sb
-from skinglow_blender.live_update import STATE
-from skinglow_blender.scene_reading import ROW_PROPERTY
+from skinglow_blender.live.live_update import STATE
+from skinglow_blender.read.scene_reading import ROW_PROPERTY
 from skinglow_blender.skin_settings import SETTING_NAMES, SkinSettings
 
 from inside.bad_input import refused

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import skinglow as sg
 from mathutils import Vector
-from skinglow_blender import scene_lights
+from skinglow_blender.read import scene_lights
 
 from inside.scenes import add_light, camera_above, depsgraph, patch, read_exr, render_settings
 

@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import skinglow_blender as sb
-from skinglow_blender import scene_lights, scene_reading
+from skinglow_blender.read import scene_lights, scene_reading
 
 from inside.light_units import AGREEMENT, UP, rendered_irradiance, sg, stage
 from inside.scenes import add_light, depsgraph, link

@@ -5,7 +5,8 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import skinglow_blender as sb
-from skinglow_blender import light_list, live_update
+from skinglow_blender.live import live_update
+from skinglow_blender.ui import light_list
 
 from inside.scenes import add_light, depsgraph, patch
 

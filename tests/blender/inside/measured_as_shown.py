@@ -4,8 +4,9 @@ import bpy
 import numpy as np
 import skinglow_blender as sb
 from mathutils import Matrix
-from skinglow_blender import measured_geometry, thickness_attribute
-from skinglow_blender.scene_reading import ROW_PROPERTY
+from skinglow_blender.read import measured_geometry
+from skinglow_blender.read.scene_reading import ROW_PROPERTY
+from skinglow_blender.thickness import thickness_attribute
 
 from inside.scenes import depsgraph, link
 

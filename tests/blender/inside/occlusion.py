@@ -6,8 +6,9 @@ import bpy
 import numpy as np
 import skinglow as sg
 import skinglow_blender as sb
-from skinglow_blender import handlers, occlusion
-from skinglow_blender.live_update import STATE
+from skinglow_blender.live import handlers
+from skinglow_blender.live.live_update import STATE
+from skinglow_blender.table import occlusion
 
 from inside.light_units import rendered_irradiance, stage
 from inside.scenes import add_light, depsgraph, link, patch, render_settings
@@ -251,7 +252,7 @@ def check_against_cycles(work):
 
 
 def occlusion_light(obj):
-    from skinglow_blender import scene_lights
+    from skinglow_blender.read import scene_lights
 
     evaluated = obj.evaluated_get(depsgraph())
     return scene_lights.make_light(scene_lights.read_light(evaluated, evaluated.matrix_world, obj.name))

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 import skinglow as sg
 import skinglow_blender as sb
-from skinglow_blender.lut_image import images_of, shown_image
+from skinglow_blender.show.lut_image import images_of, shown_image
 
 from inside.scenes import (
     add_light,

@@ -4,10 +4,10 @@ import bpy
 import numpy as np
 import skinglow_blender as sb
 from mathutils import Matrix
-from skinglow_blender.health import quick_faults
-from skinglow_blender.lut_image import images_of
-from skinglow_blender.skin_group import KNOWN_ATTRIBUTE
-from skinglow_blender.skin_material import remove_from_material
+from skinglow_blender.commands.health import quick_faults
+from skinglow_blender.show.lut_image import images_of
+from skinglow_blender.show.skin_material import remove_from_material
+from skinglow_blender.thickness.thickness_attribute import KNOWN_ATTRIBUTE
 
 from inside.bad_input import refused
 from inside.measured_as_shown import plate

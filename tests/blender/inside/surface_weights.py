@@ -36,8 +36,8 @@ def pixels(work, engine="CYCLES"):
 
 
 def core_lights():
-    from skinglow_blender.scene_lights import make_light
-    from skinglow_blender.scene_reading import read_scene
+    from skinglow_blender.read.scene_lights import make_light
+    from skinglow_blender.read.scene_reading import read_scene
 
     return [make_light(each) for each in read_scene(depsgraph()).lights]
 
@@ -88,7 +88,7 @@ def check_each_kind_of_light(work):
 
 def check_weight_of_an_angle_is_never_negative(work):
     """The cubic of a weight that rises steeply is negative at grazing angles: shown is 0 there, not less."""
-    from skinglow_blender import skin_tables
+    from skinglow_blender.table import skin_tables
 
     steep = sg.AngularWeight([0.0, 0.5, 0.55, 1.0], [0.0, 0.0, 1.0, 1.0])
     before = sg.skin_angular_weight

@@ -5,8 +5,10 @@ import time
 import bpy
 import numpy as np
 import skinglow_blender as sb
-from skinglow_blender import measured_geometry, measuring_operators, thickness_attribute
-from skinglow_blender.measuring import Measuring
+from skinglow_blender.read import measured_geometry
+from skinglow_blender.thickness import thickness_attribute
+from skinglow_blender.thickness.measuring import Measuring
+from skinglow_blender.ui import measuring_operators
 
 from inside.scenes import add_light, assert_fresh, depsgraph
 

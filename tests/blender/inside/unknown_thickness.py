@@ -4,8 +4,10 @@ import bmesh
 import bpy
 import numpy as np
 import skinglow_blender as sb
-from skinglow_blender import file_upgrade, lut_image, thickness_attribute
-from skinglow_blender.skin_group import KNOWN_ATTRIBUTE
+from skinglow_blender.live import file_upgrade
+from skinglow_blender.show import lut_image
+from skinglow_blender.thickness import thickness_attribute
+from skinglow_blender.thickness.thickness_attribute import KNOWN_ATTRIBUTE
 
 from inside.bad_input import refused
 from inside.scenes import add_light, black_material, camera_above, depsgraph, link, patch, read_exr, render_settings

@@ -5,7 +5,7 @@ import math
 import bpy
 import numpy as np
 from mathutils import Vector
-from skinglow_blender import scene_world
+from skinglow_blender.read import scene_world
 
 from inside.light_units import AGREEMENT, rendered_irradiance, stage
 from inside.scenes import depsgraph, link

@@ -4,7 +4,7 @@ import math
 
 import bpy
 import numpy as np
-from skinglow_blender import world_image
+from skinglow_blender.read import world_image
 
 #: Normals of the plane on which a world is measured: the axes' sides and between them.
 NORMALS = ((0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (-0.48, 0.6, 0.64))

@@ -15,7 +15,9 @@ import bpy  # noqa: E402
 import numpy as np  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
 from panel_scene import build_scene  # noqa: E402
-from skinglow_blender import light_list, live_update, measuring_operators, panel, thickness_attribute  # noqa: E402
+from skinglow_blender.live import live_update  # noqa: E402
+from skinglow_blender.thickness import thickness_attribute  # noqa: E402
+from skinglow_blender.ui import light_list, measuring_operators, panel  # noqa: E402
 from window_steps import (  # noqa: E402
     area_of,
     click,

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether everything that makes an object glow agrees: its nodes, images, materials, thickness and mesh."""
+
+from typing import NamedTuple
+
+import bpy
+import numpy as np
+
+from ..errors import SkinError
+from ..live.live_update import STATE
+from ..read.measured_size import is_reshaped
+from ..read.mesh_reading import evaluated_mesh
+from ..show.lut_image import SLOTS, images_of
+from ..show.skin_material import skin_node
+from ..thickness import thickness_attribute
+from ..thickness.thickness_attribute import KNOWN_ATTRIBUTE, THICKNESS_ATTRIBUTE
+from .skin import make_skin, skin_settings_of
+
+
+class Fault(NamedTuple):
+    """What is wrong with a skin."""
+
+    what: str
+    remedy: str
+
+    def __str__(self) -> str:
+        return f"{self.what}: {self.remedy}"
+
+
+REPAIR = "press Repair, or call make_skin"
+MEASURE = "press Measure Thickness"
+
+
+def health(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None = None) -> list[Fault]:
+    """What is wrong with a skin, worst first, and what to do about each; empty: all is well.
+
+    obj        a skin; raises SkinError for any other object
+    depsgraph  whose evaluated mesh is looked at; None: the context's
+    """
+    if obj.type != "MESH" or not obj.skinglow.enabled:
+        skin_settings_of(obj)
+    faults = quick_faults(obj)
+    if not any(fault.remedy == MEASURE for fault in faults):
+        faults += _thickness_faults(obj, depsgraph or bpy.context.evaluated_depsgraph_get())
+    told = STATE.faults.get(obj.name_full)
+    if told is not None and not faults:
+        faults.append(Fault(told, REPAIR))
+    return faults
+
+
+def quick_faults(obj: bpy.types.Object) -> list[Fault]:
+    """Those that cost next to nothing to find, whatever the size of the mesh: for drawing."""
+    faults = []
+    group = obj.skinglow.group
+    if group is None:
+        faults.append(Fault("Its node group was deleted", REPAIR))
+    else:
+        if len(images_of(group)) != len(SLOTS):
+            faults.append(Fault("An image of its lookup was deleted", REPAIR))
+        materials = [slot.material for slot in obj.material_slots if slot.material is not None]
+        if not any(_shows(material, group) for material in materials):
+            faults.append(Fault("None of its materials has the Skinglow node, so it does not glow", REPAIR))
+    mesh = obj.data
+    if any(name not in mesh.attributes for name in (THICKNESS_ATTRIBUTE, KNOWN_ATTRIBUTE)):
+        faults.append(Fault("Its thickness is not known, so it does not glow", MEASURE))
+    elif is_reshaped(mesh) and thickness_attribute.is_from_measurement(mesh):
+        faults.append(Fault("Its mesh was edited after its thickness was measured", MEASURE))
+    return faults
+
+
+def _shows(material: bpy.types.Material, group: bpy.types.NodeTree) -> bool:
+    node = skin_node(material)
+    return node is not None and node.node_tree == group
+
+
+def _thickness_faults(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[Fault]:
+    with evaluated_mesh(obj.evaluated_get(depsgraph)) as mesh:
+        _thickness, known = thickness_attribute.read(mesh)
+    if not known.all():
+        share = np.count_nonzero(~known) / len(known)
+        return [
+            Fault(
+                f"The thickness is not known at {share:.1%} of the vertices shown, which do not glow",
+                f"{MEASURE}; if a modifier makes these vertices, apply it first",
+            )
+        ]
+    if thickness_attribute.is_from_measurement(obj.data) and not thickness_attribute.is_of_this_mesh(obj):
+        return [Fault("Its mesh or its modifiers were edited after its thickness was measured", MEASURE)]
+    return []
+
+
+def repair(obj: bpy.types.Object) -> None:
+    """Makes a skin anew as far as something is wrong with it: nodes, images, thickness."""
+    settings = obj.skinglow
+    if settings.group is not None and len(images_of(settings.group)) != len(SLOTS):
+        settings.property_unset("group")
+    make_skin(obj)
+
+
+def require_health(scene: bpy.types.Scene) -> None:
+    """Raises SkinError with the faults of all skins that the scene renders."""
+    faults = [
+        f"'{obj.name}': {fault}"
+        for obj in scene.objects
+        if obj.type == "MESH" and obj.skinglow.enabled and not obj.hide_render
+        for fault in health(obj)
+    ]
+    if faults:
+        raise SkinError("; ".join(faults))

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What each light of a scene and its world contribute to a skin, and why they contribute nothing."""
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..errors import core
+from ..read.scene_lights import SceneLight, make_light
+from ..read.scene_reading import SceneReading, Skin, read_scene, read_skin
+from ..read.scene_world import World
+from ..table.lut_layout import MAX_TERMS
+from ..table.occlusion import with_visible_fractions
+from .skin import skin_settings_of, table_of
+
+
+def light_report(
+    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, reading: SceneReading | None = None
+) -> list[dict[str, Any]]:
+    """A dict for each light of the depsgraph, for the world, and for each light of the scene that is hidden from it.
+
+    name      of the light object, followed by " in <instancer>" for an instance; of the world
+    kind      'POINT', 'SUN', 'SPOT', 'AREA' or 'WORLD'
+    weight    (3,) float64: color times attenuation in modes existing and paper; irradiance, W/m^2, in mode physical
+    distance  from the skin's reference point, scene units; 0 for a sun and the world, None for a light that is not in
+              the depsgraph
+    angle     between the light's axis and the reference point, radians; 0 for a point light, a sun and the world,
+              None for a light that is not in the depsgraph
+    share     fraction of the sum of all weights, 0 to 1
+    visible   fraction of its light that other objects let through to the skin's far side, 0 to 1; 1 unless the
+              scene's occlusion is on and the mode is physical
+    reason    why its weight is zero, or ""
+    note      what of it is not supported, or ""
+
+    reading   the scene as it was just read from this depsgraph; None: it is read here
+    """
+    skin_settings_of(obj)
+    evaluated = obj.evaluated_get(depsgraph)
+    skin = read_skin(evaluated, evaluated.matrix_world)
+    if reading is None:
+        reading = with_visible_fractions(read_scene(depsgraph)._replace(skins=[(obj, skin)]), depsgraph, {})
+    lights = reading.lights
+    far_lights = _far_lights(obj, depsgraph)
+    rows = [_row(skin, light, far_lights) for light in lights]
+    if reading.world is not None:
+        rows.append(_world_row(skin, reading.world))
+    total = sum(float(np.sum(row["weight"])) for row in rows)
+    for row in rows:
+        row["share"] = float(np.sum(row["weight"])) / total if total > 0.0 else 0.0
+    # An object that is shown by its instances alone is hidden itself.
+    listed = {light.object_name for light in lights if light.name == light.object_name}
+    for other in depsgraph.scene.objects:
+        if other.type == "LIGHT" and other.name not in listed:
+            hidden = _entry(other.name, other.data.type, reason=_why_hidden(other, depsgraph))
+            rows.append(hidden | {"distance": None, "angle": None})
+    return rows
+
+
+def _entry(name: str, kind: str, reason: str = "", note: str = "") -> dict[str, Any]:
+    """A row without a contribution."""
+    return {
+        "name": name,
+        "kind": kind,
+        "weight": np.zeros(3),
+        "distance": 0.0,
+        "angle": 0.0,
+        "share": 0.0,
+        "visible": 1.0,
+        "reason": reason,
+        "note": note,
+    }
+
+
+def _far_lights(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> frozenset[str]:
+    """Names of the lights without a term of their own in a skin that is lit per pixel."""
+    table = table_of(obj, depsgraph)
+    return table.far_lights if table is not None else frozenset()
+
+
+def _row(skin: Skin, scene_light: SceneLight, far_lights: frozenset[str]) -> dict[str, Any]:
+    sg = core()
+    visible = scene_light.visible.get(skin.key, 1.0)
+    notes = [scene_light.note]
+    if 0.0 < visible < 1.0:
+        notes.append(f"other objects let {visible:.1%} of it through")
+    if scene_light.name in far_lights:
+        notes.append(f"more than {MAX_TERMS} lights: treated as distant")
+    row = _entry(scene_light.name, scene_light.signature[1], scene_light.unlit_reason, "; ".join(filter(None, notes)))
+    row["visible"] = visible
+    if not row["reason"] and not scene_light.lights(skin.key):
+        row["reason"] = "light linking excludes this object"
+    try:
+        light = make_light(scene_light.seen_by(skin.key))
+        found = sg.light_report([light], skin.point)[0]
+    except ValueError as error:
+        return row | {"distance": None, "angle": None, "reason": row["reason"] or str(error)}
+    row["distance"], row["angle"] = found["distance"], found["axis_angle"]
+    if row["reason"]:
+        return row
+    if skin.mode == "PHYSICAL":
+        row["weight"] = np.asarray(found["weight"], dtype=np.float64)
+    else:
+        row["weight"] = sg.light_weights([light], skin.point, skin.attenuation)[0]
+    if not np.any(row["weight"]):
+        row["reason"] = "occluded" if visible == 0.0 else found["state"]
+        if row["reason"] == "shines":
+            row["reason"] = "its attenuation is 0"
+    return row
+
+
+def _world_row(skin: Skin, world: World) -> dict[str, Any]:
+    row = _entry(world.name, "WORLD", world.unlit_reason, world.unsupported)
+    if skin.mode != "PHYSICAL":
+        row["reason"] = "only Physical mode uses the world"
+    elif not row["reason"]:
+        row["weight"], row["note"] = np.array(world.irradiance), world.note
+        if not row["weight"].any():
+            row["reason"] = world.note or "its color or strength is 0"
+    return row
+
+
+def _why_hidden(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> str:
+    if depsgraph.mode == "RENDER":
+        return "hidden in renders" if obj.hide_render else "its collection is hidden in renders or excluded"
+    if obj.hide_viewport:
+        return "disabled in viewports"
+    layer = depsgraph.view_layer
+    if obj.name in layer.objects and layer.objects[obj.name].hide_get(view_layer=layer):
+        return "hidden in the viewport"
+    return "its collection is hidden or excluded from the view layer"

@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes skins, queries what they show and removes them."""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import bpy
+import numpy as np
+
+from ..errors import SkinError
+from ..live.live_update import STATE, Rebuilt, update_scene
+from ..read import measured_geometry, working_space, world_image
+from ..read.scene_reading import ROW_PROPERTY, read_skin
+from ..show.lut_image import group_layout, image_pair, read_row, remove_images, shown_image
+from ..show.skin_group import clear
+from ..show.skin_material import add_to_materials, remove_from_material
+from ..skin_settings import MEASURING_NAMES, SETTING_NAMES, applied
+from ..table.lut_layout import shown_colors
+from ..table.skin_tables import OBJECT_WEIGHT, Table, WeightsChoice
+from ..thickness import thickness_attribute
+
+
+class SkinState(NamedTuple):
+    """The settings and the current state of a skin."""
+
+    name: str  #: of the object
+    mode: str  #: 'EXISTING', 'PAPER' or 'PHYSICAL'
+    weights: str  #: 'OBJECT' or 'SURFACE': the one in use if the setting is 'AUTO'
+    weights_bound: float | None  #: error bound of the object's weight, relative to its largest channel
+    point: tuple[float, float, float]  #: reference point of distances, world, scene units
+    size: int  #: entries of its lookup
+    max_thickness_mm: float  #: thickness at the last entry
+    thickness_mm: tuple[float, float]  #: min and max over its vertices
+    unit_mm: float  #: millimeters per scene unit
+    row: int  #: of the lookup image, from the bottom
+    rebuilt: tuple[Rebuilt, ...]  #: the tables that were computed
+
+
+def make_skin(obj: bpy.types.Object, thickness: Sequence[float] | None = None, **settings: Any) -> SkinState:  # noqa: ANN401
+    """Makes a mesh object glow: measures thickness, adds the lookup node to its materials, keeps it up to date.
+
+    obj        a mesh object with faces, not in Edit Mode; its materials keep their surface
+    thickness  custom thicknesses, mm, one per vertex, which are then kept; without it they are measured by ray tracing
+               (only if the mesh, its scale or unit changed since the last time)
+    settings   any property of `obj.skinglow` (skin_settings.py): mode="existing"|"paper"|"physical",
+               weights="object"|"surface"|"auto" (mode physical: lit per object or per pixel), strength,
+               blood_weight, attenuation, reference="bounds"|"origin"|"point", reference_point (which implies
+               "point"), size, max_thickness_mm, unit_mm, rays, ... Another call changes only the given ones.
+    Raises SkinError if the object cannot be a skin, ValueError naming a setting that is not allowed.
+    """
+    measured_geometry.check_mesh(obj)
+    if "reference_point" in settings:
+        settings.setdefault("reference", "POINT")
+    with applied(obj.skinglow, settings):
+        scene = bpy.context.scene
+        if thickness is None:
+            thickness_attribute.ensure_measured(obj, scene)
+        else:
+            thickness_attribute.store(obj, thickness, measured_geometry.unit_mm(obj, scene))
+
+        group = add_to_materials(obj, obj.skinglow.group)
+        if obj.skinglow.group != group:
+            obj.skinglow.group = group
+            obj.skinglow.row = -1
+        obj.skinglow.enabled = True
+        if ROW_PROPERTY not in obj:
+            obj[ROW_PROPERTY] = (0.0, 0.0, 0.0, 0.0)
+        obj.update_tag(refresh={"OBJECT"})
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        rebuilt = tuple(r for r in update_scene(depsgraph) if r.skin == obj.name)
+        fault = STATE.faults.get(obj.name_full)
+        if fault is not None:
+            raise SkinError(fault)
+    return state_of(obj, depsgraph)._replace(rebuilt=rebuilt)
+
+
+def state_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SkinState:
+    """The state of a skin in a depsgraph."""
+    settings = skin_settings_of(obj)
+    evaluated = obj.evaluated_get(depsgraph)
+    values, known = thickness_attribute.read(obj.data)
+    values = values[known]
+    skin = read_skin(evaluated, evaluated.matrix_world)
+    choice = choice_of(obj, depsgraph)
+    return SkinState(
+        name=obj.name,
+        mode=skin.mode,
+        weights=choice.weights,
+        weights_bound=choice.bound,
+        point=skin.point,
+        size=skin.base[1],
+        max_thickness_mm=skin.base[2],
+        thickness_mm=(float(values.min()), float(values.max())) if len(values) else (0.0, 0.0),
+        unit_mm=measured_geometry.unit_mm(obj, depsgraph.scene),
+        row=settings.row,
+        rebuilt=(),
+    )
+
+
+def table_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Table | None:
+    """The table that a skin shows in depsgraphs of this mode; None before the first update."""
+    group = obj.original.skinglow.group
+    atlas = STATE.atlases.get((group.name_full, depsgraph.mode)) if group is not None else None
+    return atlas.tables.get(obj.original.name_full) if atlas is not None else None
+
+
+def choice_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> WeightsChoice:
+    """Whether a skin is lit per object or per pixel, and the error bound of the former."""
+    table = table_of(obj, depsgraph)
+    return table.choice if table is not None else OBJECT_WEIGHT
+
+
+def update(depsgraph: bpy.types.Depsgraph) -> list[Rebuilt]:
+    """Recomputes each lookup whose lights, world, position or settings changed; returns what was rebuilt and why.
+
+    The handlers do the same whenever Blender reports a change. Raises SkinError with all faults after the other skins
+    are updated; a skin with a fault keeps its last good lookup.
+    """
+    world_image.forget_edited()
+    rebuilt = update_scene(depsgraph)
+    if STATE.faults:
+        raise SkinError("; ".join(STATE.faults.values()))
+    return rebuilt
+
+
+def lut(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
+    """The lookup as the object's material shows it, (size, 3) float32, linear Rec.709, thin skin first.
+
+    If the skin is lit per pixel, the lookup at the object's single weight.
+
+    It is read from the image in the node; if viewport and render differ, from that of the depsgraph's mode. Raises
+    SkinError if the object is not a skin.
+    """
+    settings = skin_settings_of(obj)
+    group = settings.group
+    pair = image_pair(group, depsgraph.mode)
+    image = shown_image(group)
+    atlas = STATE.atlases.get((group.name_full, depsgraph.mode))
+    if image not in pair and atlas is not None:
+        image = pair[atlas.front]
+    if image is None:
+        raise SkinError(f"'{obj.name}': the image of its lookup was deleted: make the skin again")
+    table = table_of(obj, depsgraph)
+    if table is not None:
+        size = len(table.colors)
+    else:
+        evaluated = obj.evaluated_get(depsgraph)
+        size = read_skin(evaluated, evaluated.matrix_world).base[1]
+    row, layout = read_row(image, settings.row), group_layout(group)
+    return working_space.to_rec709(row[:size, :3].copy() if layout is None else shown_colors(row, size, layout))
+
+
+def remove_skin(obj: bpy.types.Object) -> None:
+    """Removes everything that `make_skin` added, unless another skin needs it."""
+    settings = obj.skinglow
+    group = settings.group
+    settings.enabled = False
+    settings.property_unset("group")
+    for name in SETTING_NAMES:
+        settings.property_unset(name)
+    settings.property_unset("row")
+    obj.pop(ROW_PROPERTY, None)
+    skins = [o for o in bpy.data.objects if o.skinglow.enabled]
+    if not any(o.data == obj.data for o in skins):
+        thickness_attribute.remove(obj.data)
+    used = {slot.material for o in skins for slot in o.material_slots}
+    for slot in obj.material_slots:
+        if slot.material is not None and slot.material not in used and slot.material.library is None:
+            remove_from_material(slot.material)
+    if group is not None and group.library is None and not any(o.skinglow.group == group for o in skins):
+        remove_images(group)
+        if group.users == 0:
+            clear(group)
+            bpy.data.node_groups.remove(group)
+        STATE.forget()
+    obj.update_tag(refresh={"OBJECT"})
+
+
+def reset_settings(obj: bpy.types.Object) -> None:
+    """Resets the settings of `make_skin` to their defaults; the object stays a skin and keeps its thickness, and
+    with it the settings by which that was measured.
+    """
+    for name in SETTING_NAMES:
+        if name not in MEASURING_NAMES:
+            obj.skinglow.property_unset(name)
+    obj.update_tag(refresh={"OBJECT"})
+
+
+def skin_settings_of(obj: bpy.types.Object) -> bpy.types.PropertyGroup:
+    """The settings of a skin; raises SkinError if the object is not one."""
+    if obj.type != "MESH" or not obj.skinglow.enabled or obj.skinglow.group is None:
+        raise SkinError(f"'{obj.name}' is not a skin: call make_skin first")
+    return obj.original.skinglow

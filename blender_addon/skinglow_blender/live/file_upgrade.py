@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Brings skins that an earlier version of the add-on saved up to date when their file is opened."""
+
+import bpy
+
+from ..show.lut_image import GROUP_PROPERTY, GROUP_VERSION, group_layout, skin_groups
+from ..show.skin_group import build_plain
+from ..show.surface_group import build_surface
+from ..thickness.thickness_attribute import mark_known
+
+
+def upgrade() -> None:
+    """Rebuilds the nodes of older groups, and stores with older thicknesses that they are known.
+
+    What comes from a library stays as it was saved there, nodes and mesh alike.
+    """
+    old = [group for group in skin_groups() if group.library is None and group[GROUP_PROPERTY] < GROUP_VERSION]
+    if not old:
+        return
+    for mesh in bpy.data.meshes:
+        mark_known(mesh)
+    for group in old:
+        layout = group_layout(group)
+        if layout is None:
+            build_plain(group)
+        else:
+            build_surface(group, layout)
+        group[GROUP_PROPERTY] = GROUP_VERSION

@@ -1,0 +1,219 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Handlers of Blender's events. They never raise: a fault is stored and shown in the panel."""
+
+import traceback
+from collections.abc import Callable
+from typing import Any
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..errors import SkinError
+from ..read import world_image
+from ..show.group_following import follow_materials, remove_orphans
+from ..show.lut_image import GROUP_PROPERTY, images_of, skin_groups
+from ..table import occlusion
+from .file_upgrade import upgrade
+from .live_update import STATE, update_scene
+from .relevant_updates import changes_of
+
+
+def guarded(function: Callable[..., None]) -> Callable[..., None]:
+    """Catches all exceptions. Blender passes as many arguments as the function has positional ones: two."""
+
+    def handler(first: Any, second: Any = None) -> None:  # noqa: ANN401  differs between handlers and versions
+        try:
+            function(first, second)
+        except (SkinError, ValueError) as error:
+            STATE.faults["*"] = str(error)
+        except Exception as error:  # noqa: BLE001  nothing may interrupt the user's work
+            STATE.faults["*"] = f"Unexpected {type(error).__name__}: {error} (details in the system console)"
+            traceback.print_exc()
+
+    handler.__name__ = function.__name__
+    return persistent(handler)
+
+
+def has_skins() -> bool:
+    """Whether the file has, or had since the last update, a skin; costs nothing in those that have none."""
+    return bool(STATE.owners or STATE.faults) or any(GROUP_PROPERTY in tree for tree in bpy.data.node_groups)
+
+
+def is_shown(depsgraph: bpy.types.Depsgraph) -> bool:
+    """Whether a depsgraph belongs to a render or to a view layer shown in a window.
+
+    `frame_set` evaluates all view layers of the scene; the viewport's lookup is that of the visible layer.
+    """
+    if depsgraph.mode == "RENDER":
+        return True
+    layers = [window.view_layer for window in bpy.context.window_manager.windows] or [bpy.context.view_layer]
+    return depsgraph.view_layer in layers
+
+
+@guarded
+def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    """Called after an edit."""
+    if not has_skins() or not is_shown(depsgraph):
+        return
+    changes = changes_of(depsgraph)
+    if changes.materials:
+        follow_materials()
+    known_images = [name for name in changes.images if world_image.is_known(name)]
+    for name in known_images:
+        world_image.forget(name)
+    if not known_images and not changes.skins:
+        return
+    if update_scene(depsgraph, only_live=True):
+        update_windows_soon()
+
+
+@guarded
+def on_frame_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    """Called after a frame change: in an animation render this is the only depsgraph with that frame's lights."""
+    if not has_skins():
+        return
+    if depsgraph.mode == "RENDER" and STATE.render_frame not in (None, scene.frame_current_final):
+        # A motion blur step. The lookup is that of the frame itself; writing now would overwrite it before the renderer
+        # has read it.
+        return
+    if is_shown(depsgraph):
+        update_scene(depsgraph, only_live=True)
+
+
+@guarded
+def on_render_init(_scene: bpy.types.Scene, _unused: None) -> None:
+    """Called when a render begins: the viewport's images are not updated until it ends."""
+    STATE.rendering = True
+
+
+@guarded
+def on_render_pre(scene: bpy.types.Scene, _unused: None) -> None:
+    """Called when the render of a frame begins."""
+    STATE.rendering = True
+    STATE.render_frame = scene.frame_current_final
+
+
+@guarded
+def on_render_end(_scene: bpy.types.Scene, _unused: None) -> None:
+    """Called when a render ends or is canceled: restores the viewport's lookups."""
+    STATE.rendering = False
+    STATE.render_frame = None
+    occlusion.forget("RENDER")
+    show_viewport()
+
+
+@guarded
+def on_undo(_first: Any, _second: Any) -> None:  # noqa: ANN401
+    """Called after undo and redo: all cached state is invalid. Pixels are not undone, but the images in the nodes are.
+
+    The skins are tagged, so Blender evaluates and reports them. Evaluating here, before Blender does, can crash it.
+    """
+    forget_all()
+    for obj in bpy.data.objects:
+        if obj.skinglow.enabled:
+            obj.update_tag(refresh={"OBJECT"})
+    update_windows_soon()
+
+
+def update_windows_soon() -> None:
+    """Schedules another update of the scenes in the windows.
+
+    What a handler writes makes Blender evaluate again without a report, and Blender 4.5 was seen to move instanced
+    lights of hidden collections only then. There are no timers in background mode: scripts call update().
+    """
+    if not bpy.app.background and not bpy.app.timers.is_registered(update_windows):
+        bpy.app.timers.register(update_windows, first_interval=0.05)
+
+
+def update_windows() -> None:
+    """Updates the scenes in the windows."""
+    if STATE.rendering or not has_skins():
+        return
+    try:
+        for window in bpy.context.window_manager.windows:
+            if window.view_layer.depsgraph is not None:
+                update_scene(window.view_layer.depsgraph, only_live=True)
+    except (SkinError, ValueError) as error:
+        STATE.faults["*"] = str(error)
+
+
+@guarded
+def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
+    """Called after loading a file. Evaluations during loading are not reported, so everything is updated here."""
+    forget_all()
+    follow_windows()  # loading clears subscriptions
+    upgrade()
+    if bpy.context.view_layer is not None and any(obj.skinglow.enabled for obj in bpy.data.objects):
+        update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
+    remove_orphans()
+
+
+def forget_all() -> None:
+    """Resets to the state before the first update."""
+    STATE.rendering = False
+    STATE.render_frame = None
+    STATE.forget()
+    world_image.forget()
+    occlusion.forget()
+
+
+@guarded
+def on_save(_first: Any, _second: Any) -> None:  # noqa: ANN401
+    """Called before saving: generated pixels are not saved unless packed."""
+    for image in {i for group in skin_groups() for i in images_of(group)}:
+        if image.library is None and image.is_dirty:
+            image.pack()
+
+
+def show_viewport() -> None:
+    """Restores the viewport's images in the nodes."""
+    for group in skin_groups():
+        atlas = STATE.atlases.get((group.name_full, "VIEWPORT"))
+        if atlas is not None:
+            atlas.show(group)
+
+
+#: Owner of our subscriptions.
+SUBSCRIPTIONS = object()
+
+
+def follow_windows() -> None:
+    """Subscribes to scene and view layer changes of windows: a layer evaluated before is shown without a report."""
+    bpy.msgbus.clear_by_owner(SUBSCRIPTIONS)
+    for name in ("scene", "view_layer"):
+        bpy.msgbus.subscribe_rna(key=(bpy.types.Window, name), owner=SUBSCRIPTIONS, args=(), notify=update_windows_soon)
+
+
+HANDLERS = (
+    ("depsgraph_update_post", on_depsgraph_update),
+    ("frame_change_post", on_frame_change),
+    ("render_init", on_render_init),
+    ("render_pre", on_render_pre),
+    ("render_complete", on_render_end),
+    ("render_cancel", on_render_end),
+    ("load_post", on_load),
+    ("undo_post", on_undo),
+    ("redo_post", on_undo),
+    ("save_pre", on_save),
+)
+
+
+def register() -> None:
+    """Adds the handlers."""
+    for event, handler in HANDLERS:
+        getattr(bpy.app.handlers, event).append(handler)
+    follow_windows()
+
+
+def unregister() -> None:
+    """Removes the handlers."""
+    for event, handler in HANDLERS:
+        handlers = getattr(bpy.app.handlers, event)
+        if handler in handlers:
+            handlers.remove(handler)
+    # Whoever saves the file from now on, and whoever renders it, has the pixels that are shown now.
+    on_save(None, None)
+    bpy.msgbus.clear_by_owner(SUBSCRIPTIONS)
+    if bpy.app.timers.is_registered(update_windows):
+        bpy.app.timers.unregister(update_windows)
+    STATE.forget()

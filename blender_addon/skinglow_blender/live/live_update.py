@@ -1,0 +1,283 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Updates the skins' images after a change in the scene; does nothing if nothing changed."""
+
+from typing import NamedTuple
+
+import bpy
+import numpy as np
+
+from ..errors import SkinError
+from ..read import working_space
+from ..read.scene_lights import FIELDS
+from ..read.scene_reading import ROW_PROPERTY, SceneReading, Skin, read_scene
+from ..show.lut_image import Atlas, ensure_images, has_room
+from ..show.skin_group import build_plain
+from ..show.surface_group import build_surface
+from ..table.lut_layout import layout_of, plain_row, surface_row
+from ..table.occlusion import with_visible_fractions
+from ..table.skin_tables import Signature, Table, compute_table, signature_of
+from ..table.texel_mapping import texels_per_mm
+
+
+class Rebuilt(NamedTuple):
+    """One skin's table that was recomputed."""
+
+    skin: str  #: name of the object
+    mode: str  #: 'VIEWPORT' or 'RENDER': the depsgraph mode it was computed for
+    before: Signature | None  #: signature of the previous table; None: there was none
+    after: Signature  #: signature of the new table
+
+    @property
+    def why(self) -> str:
+        """What changed, as text."""
+        return why_changed(self.before, self.after)
+
+
+class LiveState:
+    """State kept between updates. Undo and load invalidate it: they replace all data."""
+
+    def __init__(self) -> None:
+        self.atlases: dict[tuple[str, str], Atlas] = {}
+        self.faults: dict[str, str] = {}
+        #: (node group, row) to the name and library of the object that owns the row.
+        self.owners: dict[tuple[str, int], tuple[str, str | None]] = {}
+        self.rendering = False
+        self.render_frame: float | None = None
+        #: What the last update read, and of which depsgraph; None if undo or load made its objects invalid.
+        self.reading: tuple[int, SceneReading] | None = None
+        #: Number of updates, one per edit: anything derived at a lower number may be out of date.
+        self.updates = 0
+
+    def forget(self) -> None:
+        """Drops all tables, so that the next update recomputes and shows every one."""
+        self.atlases.clear()
+        self.owners.clear()
+        self.faults.clear()
+        self.reading = None
+
+
+STATE = LiveState()
+
+
+def update_scene(depsgraph: bpy.types.Depsgraph, only_live: bool = False) -> list[Rebuilt]:
+    """Recomputes and shows what changed in this depsgraph. Faults go to STATE.faults and do not affect other skins.
+
+    A skin with a fault keeps its last good table. With only_live, skins that are not live keep the table they show.
+    """
+    STATE.updates += 1
+    faults: dict[str, str] = {}
+    reading = with_visible_fractions(read_scene(depsgraph), depsgraph, faults)
+    STATE.reading = (depsgraph.as_pointer(), reading)
+    rebuilt: list[Rebuilt] = []
+    groups: dict[str, tuple[bpy.types.NodeTree, list[tuple[bpy.types.Object, Skin]]]] = {}
+    for obj, skin in reading.skins:
+        group = obj.skinglow.group
+        if group is None:
+            faults[skin.key] = f"{skin.name}: its node group was deleted: make the skin again"
+            continue
+        groups.setdefault(group.name_full, (group, []))[1].append((obj, skin))
+    for group, members in groups.values():
+        try:
+            rebuilt += _update_group(group, members, reading, depsgraph.mode, only_live, faults)
+        except SkinError as error:
+            for _obj, skin in members:
+                faults[skin.key] = f"{skin.name}: {error}"
+    STATE.faults = faults
+    return rebuilt
+
+
+def _update_group(
+    group: bpy.types.NodeTree,
+    members: list[tuple[bpy.types.Object, Skin]],
+    reading: SceneReading,
+    mode: str,
+    only_live: bool,
+    faults: dict[str, str],
+) -> list[Rebuilt]:
+    _separate_rows(group, members)
+    _make_room(group, max(skin.base[1] for _obj, skin in members), 1 + max(o.skinglow.row for o, _skin in members))
+    atlas = _atlas(group, mode)
+    before = {key: (signature, atlas.rows.get(key)) for key, signature in atlas.signatures.items()}
+    other = STATE.atlases.get((group.name_full, "RENDER" if mode == "VIEWPORT" else "VIEWPORT"))
+    kept = _keep(atlas, other, members) if only_live else set()
+    # Nodes cannot be added while rendering, nor to a group from a library.
+    fixed = STATE.rendering or group.library is not None
+    _compute(atlas, members, kept, reading, faults, fixed)
+    if _fit_layout(group, atlas, members):
+        old, atlas = atlas, _atlas(group, mode)
+        kept = _keep(atlas, old, members) if only_live else set()
+        _compute(atlas, members, kept, reading, faults, fixed)
+    rebuilt = []
+    for obj, skin in members:
+        table = atlas.tables.get(skin.key)
+        if table is None:
+            continue
+        row, signature = obj.skinglow.row, atlas.signatures[skin.key]
+        if not atlas.holds(skin.key, row, table):
+            atlas.put(skin.key, row, table, _texels(table, skin, atlas))
+            changed_from = before.get(skin.key, (None, None))
+            if changed_from != (signature, row):
+                rebuilt.append(Rebuilt(skin.name, mode, changed_from[0], signature))
+        _set_row_property(obj, skin, atlas)
+    if atlas.is_dirty:
+        atlas.write(group)
+    if mode == "RENDER" or not STATE.rendering:
+        atlas.show(group)
+    return rebuilt
+
+
+def _keep(atlas: Atlas, other: Atlas | None, members: list[tuple[bpy.types.Object, Skin]]) -> set[str]:
+    """Keys of the skins that are not live and keep their table, from this atlas or else from the other."""
+    kept = set()
+    for key in [skin.key for _obj, skin in members if not skin.live]:
+        if key not in atlas.tables and other is not None and key in other.tables:
+            atlas.tables[key], atlas.signatures[key] = other.tables[key], other.signatures[key]
+        if key in atlas.tables:
+            kept.add(key)
+    return kept
+
+
+def _compute(
+    atlas: Atlas,
+    members: list[tuple[bpy.types.Object, Skin]],
+    kept: set[str],
+    reading: SceneReading,
+    faults: dict[str, str],
+    fixed: bool,
+) -> None:
+    """Computes the tables whose signature changed; a skin with a fault keeps its last one.
+
+    fixed  whether its light has to fit into the nodes that there are
+    """
+    room = atlas.layout if fixed else None
+    for _obj, skin in members:
+        if skin.key in kept:
+            continue
+        signature = signature_of(skin, reading.lights, reading.world)
+        if atlas.signatures.get(skin.key) == signature:
+            continue
+        try:
+            atlas.tables[skin.key] = compute_table(skin, reading.lights, reading.world, room)
+            atlas.signatures[skin.key] = signature
+        except (SkinError, ValueError) as error:
+            faults[skin.key] = str(error)
+
+
+def _texels(table: Table, skin: Skin, atlas: Atlas) -> np.ndarray:
+    """A skin's row of the image, with colors in the file's working space."""
+    if atlas.layout is None:
+        return plain_row(working_space.from_rec709(table.colors), atlas.pixels.shape[1])
+    weight = table.weight if table.weight is not None else (1.0, 1.0, 1.0)
+    depth_per_mm = skin.surface.depth_per_mm if skin.surface is not None else 0.0
+    columns = working_space.from_rec709(table.columns.transpose(0, 2, 1))
+    return surface_row(columns, weight, table.lighting, depth_per_mm, atlas.layout)
+
+
+def _fit_layout(group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]]) -> bool:
+    """Builds the nodes that the group's skins need; returns whether that invalidated the atlas."""
+    wanted = atlas.layout
+    tables = [atlas.tables[skin.key] for _obj, skin in members if skin.key in atlas.tables]
+    lit = [table for table in tables if table.lighting is not None]
+    if lit or wanted is not None:
+        entries = max((len(table.colors) for table in tables), default=1)
+        for table in lit:
+            needed = layout_of(table.lighting, entries)
+            wanted = needed if wanted is None else wanted.joined(needed)
+        if not lit and not _has_surface_weights(group):
+            wanted = None
+        elif wanted.entries < entries:
+            wanted = wanted._replace(entries=entries)
+    if wanted == atlas.layout or group.library is not None or (wanted is None and STATE.rendering):
+        return False
+    if STATE.rendering:
+        raise SkinError(
+            "its material has too few nodes for these lights, and nodes cannot be added while rendering: "
+            "update before rendering"
+        )
+    if wanted is None:
+        build_plain(group)
+        return True
+    ensure_images(group, wanted.width, atlas.pixels.shape[0])
+    build_surface(group, wanted)
+    return True
+
+
+def _has_surface_weights(group: bpy.types.NodeTree) -> bool:
+    """Whether any skin of the group may be lit per pixel, so that the nodes for that are kept."""
+    skins = (o.skinglow for o in bpy.data.objects if o.type == "MESH")
+    return any(s.group == group and s.enabled and s.mode == "PHYSICAL" and s.weights != "OBJECT" for s in skins)
+
+
+def _atlas(group: bpy.types.NodeTree, mode: str) -> Atlas:
+    key = (group.name_full, mode)
+    atlas = STATE.atlases.get(key)
+    if atlas is None or not atlas.fits(group):
+        atlas = STATE.atlases[key] = Atlas(group, mode)
+    return atlas
+
+
+def _separate_rows(group: bpy.types.NodeTree, members: list[tuple[bpy.types.Object, Skin]]) -> None:
+    """Assigns a row to each skin that has none or shares one because it was copied from another skin."""
+    for obj, _skin in members:
+        settings = obj.skinglow
+        me = (obj.name, obj.library.filepath if obj.library is not None else None)
+        if settings.row < 0 or _other_owner(group, settings.row, me):
+            used = {o.skinglow.row for o in bpy.data.objects if o.skinglow.group == group}
+            settings.row = next(i for i in range(len(used) + 1) if i not in used)
+        STATE.owners[group.name_full, settings.row] = me
+
+
+def _other_owner(group: bpy.types.NodeTree, row: int, me: tuple[str, str | None]) -> bool:
+    """Whether a row belongs to another object that still exists, in any scene, and still uses it."""
+    owner = STATE.owners.get((group.name_full, row))
+    if owner is None or owner == me:
+        return False
+    other = bpy.data.objects.get(owner)
+    return other is not None and other.skinglow.group == group and other.skinglow.row == row
+
+
+def _make_room(group: bpy.types.NodeTree, width: int, rows: int) -> None:
+    if has_room(group, width, rows):
+        return
+    if STATE.rendering:
+        raise SkinError("its images are too small and cannot be enlarged while rendering: update before rendering")
+    ensure_images(group, width, rows)
+
+
+def _set_row_property(obj: bpy.types.Object, skin: Skin, atlas: Atlas) -> None:
+    """Sets the property from which the object's material reads its row and the mapping from thickness to texel."""
+    height, width = atlas.pixels.shape[:2]
+    scale = texels_per_mm(obj, skin, atlas.tables[skin.key].texel_mapping)
+    wanted = (scale, 1.0 / width, (obj.skinglow.row + 0.5) / height, skin.strength)
+    if tuple(obj.get(ROW_PROPERTY, ())) != wanted:
+        obj[ROW_PROPERTY] = wanted
+        obj.update_tag(refresh={"OBJECT"})
+
+
+#: Fields of a signature as text.
+REASONS = {
+    "base": "base lookup",
+    "blood_weight": "blood weight",
+    "attenuation": "attenuation",
+    "point": "reference point",
+    "weights": "weights",
+    "surface": "its position or shape",
+    "world": "world",
+}
+
+
+def why_changed(before: Signature | None, after: Signature) -> str:
+    """The difference between two signatures, as text."""
+    if before is None:
+        return "first computed"
+    if before.mode != after.mode:
+        return f"mode {before.mode.lower()} to {after.mode.lower()}"
+    reasons = [words for name, words in REASONS.items() if getattr(before, name) != getattr(after, name)]
+    old, new = ({light[0]: light for light in signature.lights} for signature in (before, after))
+    reasons += [f"light '{name}' added" for name in new if name not in old]
+    reasons += [f"light '{name}' removed" for name in old if name not in new]
+    for name in new:
+        if name in old and old[name] != new[name]:
+            changed = [f for f, a, b in zip(FIELDS, old[name], new[name], strict=True) if a != b]
+            reasons.append(f"light '{name}': {', '.join(changed)}")
+    return "; ".join(reasons) or "its row in the image"

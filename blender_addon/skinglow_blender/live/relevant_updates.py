@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which of the changes that Blender reports can change what a skin shows: all others cost nothing."""
+
+from typing import NamedTuple
+
+import bpy
+
+from ..show.group_following import may_change_groups
+
+#: Types of data whose changes cannot affect a light, the world or a skin by themselves. What follows from them, such as
+#: the shape of an object after its mesh was edited, is reported as a change of the object.
+IRRELEVANT = frozenset(
+    "Action Armature Brush Camera Curve Image Key Lattice Material Mesh MetaBall Screen Text Texture "
+    "WindowManager".split()
+)
+
+
+class Changes(NamedTuple):
+    """What an evaluation's report means for skins."""
+
+    skins: bool  #: a light, a skin or the world may have changed, or what instances them
+    materials: bool  #: a skin may have got another material
+    images: frozenset[str]  #: names of the images that changed
+
+
+def changes_of(depsgraph: bpy.types.Depsgraph) -> Changes:
+    """Reads the report once: Blender goes through all data of the scene each time.
+
+    With Occlusion on every object matters: it may stand between a light and a skin.
+    """
+    skins, materials, images, number = depsgraph.scene.skinglow.occlusion, False, set(), 0
+    for number, update in enumerate(depsgraph.updates, 1):  # noqa: B007  the number of updates
+        skins = skins or _may_change_skins(update.id)
+        materials = materials or may_change_groups(update)
+        if isinstance(update.id, bpy.types.Image):
+            images.add(update.id.original.name_full)
+    # Blender 3.4 reports changed images without saying which.
+    return Changes(skins or number == 0, materials, frozenset(images))
+
+
+def _may_change_skins(changed: bpy.types.ID) -> bool:
+    if not isinstance(changed, bpy.types.Object):
+        return type(changed).__name__ not in IRRELEVANT
+    return (
+        changed.type == "LIGHT"
+        or changed.is_instancer
+        or changed.skinglow.enabled
+        or any(modifier.type == "NODES" for modifier in changed.modifiers)
+    )

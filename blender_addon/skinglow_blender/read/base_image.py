@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A Blender image as the base lookup: brightness by thickness, thin skin on the left."""
+
+from functools import lru_cache
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..errors import SkinError, core
+from .image_pixels import linear_pixels
+
+#: Rec.709 luminance (ITU-R BT.709-6, item 3.2 of part 1).
+LUMINANCE = np.array((0.2126, 0.7152, 0.0722))
+
+
+def brightness(colors: np.ndarray) -> np.ndarray:
+    """Luminance of linear Rec.709 colors (n, 3), clamped at 0, (n,)."""
+    return np.maximum(colors @ LUMINANCE, 0.0)
+
+
+@lru_cache(maxsize=16)
+def base_of_image(key: tuple) -> Any:  # noqa: ANN401  a skinglow.BaseLut
+    """Mean linear brightness of each column. Call `base_of_image.cache_clear()` after an image was painted."""
+    _kind, _width, max_thickness_mm, name, _colorspace = key
+    image = bpy.data.images.get(name)
+    if image is None:
+        raise SkinError(
+            "The base lookup is set to Image, but no image is selected: select one, or set Base to Built-in"
+        )
+    try:
+        pixels = linear_pixels(image)
+    except SkinError as error:
+        raise SkinError(f"The base lookup {error}") from error
+    colors = np.repeat(pixels[:, :, :1], 3, axis=2) if pixels.shape[2] < 3 else pixels[:, :, :3]
+    return core().BaseLut(brightness(colors.astype(np.float64).mean(axis=0)), max_thickness_mm)

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The lights of an evaluated scene as `skinglow.Light`, and the signatures by which changes are detected."""
+
+from collections.abc import Mapping
+from functools import lru_cache
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+import bpy
+from mathutils import Matrix
+
+from .. import blender_version
+from ..errors import core
+from . import working_space
+from .light_nodes import node_factor
+
+#: The entries of a light's signature, as `Rebuilt.why` names them.
+FIELDS = ("name", "type", "color", "power", "position", "direction", "shape", "normalization", "visible fraction")
+
+
+class SceneLight(NamedTuple):
+    """One light; each instance of a light is one of its own."""
+
+    name: str  #: for people: an instance is named after its light and its instancer
+    object_name: str  #: of the light object, also of an instance
+    signature: tuple  #: everything its emission depends on (FIELDS); equal signatures emit equal light
+    receivers: frozenset[str] | None  #: keys (Skin.key) of the only objects it lights; None: all
+    excluded: frozenset[str]  #: keys of objects it does not light
+    unlit_reason: str  #: why it emits nothing, or ""
+    note: str  #: what is not supported and was ignored, or ""
+    casts_shadows: bool = True
+    visible: Mapping[str, float] = MappingProxyType({})  #: visible fraction, 0 to 1, by Skin.key; missing: 1
+
+    def lights(self, skin_key: str) -> bool:
+        """Whether light linking lets this light illuminate that skin."""
+        if skin_key in self.excluded:
+            return False
+        return self.receivers is None or skin_key in self.receivers
+
+    def seen_by(self, skin_key: str) -> "SceneLight":
+        """The light reduced to the fraction of it that is visible from that skin."""
+        fraction = self.visible.get(skin_key, 1.0)
+        return self if fraction == 1.0 else self._replace(signature=(*self.signature[:-1], fraction))
+
+
+def read_light(obj: bpy.types.Object, matrix: Matrix, name: str, target: str = "ALL") -> SceneLight:
+    """Reads an evaluated light object with the given world matrix, for the renders of `target`
+    (blender_version.output_target).
+    """
+    light = obj.data
+    kind = light.type
+    color = tuple(light.color)
+    power = light.energy
+    note = ""
+    if blender_version.shader_tree(light) is not None:
+        nodes = node_factor(light, target)
+        color = tuple(a * b for a, b in zip(color, nodes.color, strict=True))
+        power *= nodes.strength
+        note = nodes.note
+    tint = blender_version.light_temperature_color(light)
+    if tint is not None:
+        color = tuple(a * b for a, b in zip(color, tint, strict=True))
+    color, gamut_note = working_space.light_color(color)
+    stops = blender_version.light_exposure(light)
+    if stops != 0.0:
+        power *= core().exposure_factor(stops)
+
+    (_, _, ax, px), (_, _, ay, py), (_, _, az, pz), _ = matrix
+    direction = (-ax, -ay, -az)
+    if kind == "AREA":
+        direction = _area_axis(matrix)
+    note = note or _transform_note(kind, matrix)
+    shape = tuple(_shape(light, kind, matrix).items())
+    normalized = blender_version.light_is_normalized(light)
+    signature = (name, kind, color, power, (px, py, pz), direction, shape, normalized, 1.0)
+    receivers, excluded = _linked_objects(obj)
+    unlit_reason = _unlit_reason(obj, kind, direction)
+    casts_shadows = blender_version.light_casts_shadows(light)
+    return SceneLight(name, obj.name, signature, receivers, excluded, unlit_reason, note or gamut_note, casts_shadows)
+
+
+def make_light(light: SceneLight) -> Any:  # noqa: ANN401  a skinglow.Light
+    """The core's light; raises ValueError, naming light and field, if the core rejects it."""
+    return _light_of(light.signature)
+
+
+@lru_cache(maxsize=4096)
+def _light_of(signature: tuple) -> Any:  # noqa: ANN401
+    sg = core()
+    name, kind, color, power, position, direction, shape, normalized, visible = signature
+    power *= visible
+    fields = dict(shape, kind=kind, color=color, position=position, direction=direction, name=name)
+    if blender_version.LEGACY_LIGHT_POWER:
+        if kind == "AREA":
+            power *= sg.LEGACY_AREA_POWER_FACTOR
+        elif kind == "SUN":
+            power *= sg.legacy_sun_power_factor(fields["sun_angle"])
+    light = sg.Light(power=power, **fields)
+    if not normalized:
+        light = sg.Light(power=power * sg.unnormalized_power_factor(light), **fields)
+    return light
+
+
+def _area_axis(matrix: Matrix) -> tuple[float, float, float]:
+    """The axis of an area light: Cycles takes the normal of its two sides, whatever became of its own z axis."""
+    x, y, z = (column.to_3d() for column in matrix.col[:3])
+    normal = x.cross(y)
+    if normal.length == 0.0:
+        return tuple(-z)
+    return tuple(-normal if normal.dot(z) > 0.0 else normal)
+
+
+#: Relative difference of lengths, and cosine of angles, that may come from single precision alone.
+ROUNDED = 1e-5
+
+
+def _transform_note(kind: str, matrix: Matrix) -> str:
+    """What of a light's transform is not followed, or ""."""
+    x, y, z = (column.to_3d() for column in matrix.col[:3])
+    if kind == "AREA" and abs(x.dot(y)) > ROUNDED * x.length * y.length:
+        return "the uneven scale of its parent skews it, which a render shows differently: apply that scale"
+    lengths = [x.length, y.length, z.length]
+    is_uneven = max(lengths) - min(lengths) > ROUNDED * max(lengths)
+    is_skewed = max(abs(x.dot(z)), abs(y.dot(z))) > ROUNDED * max(lengths) ** 2
+    if kind == "SPOT" and (is_uneven or is_skewed):
+        return "its scale is uneven, which changes the cone in a render: apply the scale"
+    return ""
+
+
+def _shape(light: bpy.types.Light, kind: str, matrix: Matrix) -> dict[str, Any]:
+    """The fields of `skinglow.Light` that are specific to this kind."""
+    if kind == "SUN":
+        return {"sun_angle": light.angle}
+    if kind == "AREA":
+        x_axis, y_axis = matrix.col[0], matrix.col[1]
+        size_y = light.size_y if light.shape in ("RECTANGLE", "ELLIPSE") else light.size
+        return {
+            "area_shape": "ELLIPSE" if light.shape in ("DISK", "ELLIPSE") else "RECTANGLE",
+            "size_x": light.size * x_axis.to_3d().length,
+            "size_y": size_y * y_axis.to_3d().length,
+            "tangent": tuple(x_axis.to_3d()),
+            "spread": light.spread,
+        }
+    fields = {"radius": light.shadow_soft_size, "soft_falloff": getattr(light, "use_soft_falloff", True)}
+    if kind == "SPOT":
+        fields["spot_angle"] = light.spot_size
+        fields["spot_blend"] = light.spot_blend
+        fields["spot_cosine"] = blender_version.SPOT_HAS_COSINE
+    return fields
+
+
+def _unlit_reason(obj: bpy.types.Object, kind: str, direction: tuple[float, float, float]) -> str:
+    if not obj.visible_diffuse:
+        return "its ray visibility excludes diffuse rays"
+    if kind == "AREA" and getattr(getattr(obj.data, "cycles", None), "is_portal", False):
+        return "it is a portal, which emits no light"
+    if kind == "AREA" and 0.0 in (
+        obj.data.size,
+        obj.data.size_y if obj.data.shape in ("RECTANGLE", "ELLIPSE") else 1.0,
+    ):
+        return "it has a size of 0, of which Cycles renders nothing"
+    if kind != "POINT" and direction == (0.0, 0.0, 0.0):
+        return "its scale is 0, so it has no direction"
+    return ""
+
+
+def _linked_objects(obj: bpy.types.Object) -> tuple[frozenset[str] | None, frozenset[str]]:
+    """Keys of the objects a light is linked to (None: all) and of those excluded from it."""
+    collection = blender_version.light_receivers(obj)
+    if collection is None:
+        return None, frozenset()
+    included, excluded = set(), set()
+    for states, members in (
+        (collection.collection_objects, ((o,) for o in collection.objects)),
+        (collection.collection_children, (c.all_objects for c in collection.children)),
+    ):
+        for state, objects in zip(states, members, strict=True):
+            keys = {o.original.name_full for o in objects}
+            (included if state.light_linking.link_state == "INCLUDE" else excluded).update(keys)
+    # With exclusions alone the light illuminates everything else.
+    return (frozenset(included - excluded) if included else None), frozenset(excluded)

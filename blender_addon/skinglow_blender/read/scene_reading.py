@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One pass over an evaluated scene: its lights, its world and its skins."""
+
+from math import pi
+from typing import NamedTuple
+
+import bpy
+from mathutils import Matrix, Vector
+
+from ..blender_version import output_target
+from ..skin_settings import TISSUE_SLIDERS, as_typed
+from .measured_size import MEASURED_CONE, MEASURED_UNIT, scale_since_measured
+from .scene_lights import SceneLight, read_light
+from .scene_world import World, read_world
+
+MM_PER_METER = 1000.0
+#: Custom property of a skin object that its node group reads: texels per mm, texel width, row, strength.
+ROW_PROPERTY = "skinglow_lut"
+
+
+class Skin(NamedTuple):
+    """The evaluated settings of one skin."""
+
+    name: str  #: of the object
+    key: str  #: name with library: unique in the file
+    mode: str
+    weights: str  #: 'OBJECT', 'SURFACE' or 'AUTO'; always 'OBJECT' where the mode is not physical
+    live: bool
+    strength: float
+    base: tuple  #: key of the base lookup (_base_key)
+    blood_weight: tuple[float, float, float]
+    attenuation: tuple[float, float, float]
+    point: tuple[float, float, float]  #: reference point of distances to the lights, world
+    world_size: float  #: edge length of the object's unit cube in the world, scene units
+    surface: "SurfaceBounds | None"  #: needed for light per pixel only
+
+
+class SurfaceBounds(NamedTuple):
+    """Bounds of a skin's surface and of the normals of its far side, in the world."""
+
+    min: tuple[float, float, float]
+    max: tuple[float, float, float]
+    normal_cone: tuple[tuple[float, float, float], float]  #: of the far side: axis, half angle in radians
+    depth_per_mm: float  #: scene units per millimeter of the thickness attribute
+
+
+class SceneReading(NamedTuple):
+    """The lights, skins and world of one depsgraph, in depsgraph order."""
+
+    lights: list[SceneLight]
+    skins: list[tuple[bpy.types.Object, Skin]]  #: with their original objects; invalid after undo or load
+    world: World | None
+
+
+def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
+    """Reads a depsgraph. It holds no hidden objects, and viewport and render have different ones."""
+    lights: list[SceneLight] = []
+    skins: list[tuple[bpy.types.Object, Skin]] = []
+    seen: set[str] = set()
+    may_instance = False
+
+    target = output_target(depsgraph.scene)
+    layer = depsgraph.view_layer if depsgraph.mode == "VIEWPORT" else None
+
+    def is_visible(obj: bpy.types.Object) -> bool:
+        # Collections hidden in the viewport by their eye icon are still in the viewport's depsgraph.
+        return layer is None or obj.original.visible_get(view_layer=layer)
+
+    def take(obj: bpy.types.Object, matrix: Matrix, instancer: bpy.types.Object | None) -> None:
+        if obj.type == "LIGHT":
+            if is_visible(instancer or obj):
+                name = f"{obj.name} in {instancer.name}" if instancer else obj.name
+                lights.append(read_light(obj, matrix, name, target))
+        elif obj.type == "MESH" and obj.skinglow.enabled:
+            skin = read_skin(obj, matrix)
+            if skin.key not in seen:
+                seen.add(skin.key)
+                skins.append((obj.original, skin))
+
+    # Iterating over the instances of a scattered forest is slow: do so only if something in the scene instances.
+    for obj in depsgraph.objects:
+        take(obj, obj.matrix_world, None)
+        may_instance = may_instance or obj.is_instancer or any(m.type == "NODES" for m in obj.modifiers)
+    if may_instance:
+        for instance in depsgraph.object_instances:
+            if instance.is_instance:
+                take(instance.object, instance.matrix_world, instance.parent)
+    return SceneReading(lights, skins, read_world(depsgraph))
+
+
+def read_skin(obj: bpy.types.Object, matrix: Matrix) -> Skin:
+    """Reads the settings of an evaluated skin object (with drivers and keyframes applied) at that world matrix."""
+    settings = obj.skinglow
+    weights = settings.weights if settings.mode == "PHYSICAL" else "OBJECT"
+    world_size = abs(matrix.to_3x3().determinant()) ** (1.0 / 3.0)
+    return Skin(
+        name=obj.name,
+        key=obj.original.name_full,
+        mode=settings.mode,
+        weights=weights,
+        live=settings.live,
+        strength=as_typed(settings.strength),
+        base=_base_key(settings),
+        blood_weight=_triple(settings.blood_weight),
+        attenuation=_triple(settings.attenuation),
+        point=_reference_point(obj, matrix),
+        world_size=world_size,
+        surface=None if weights == "OBJECT" else _surface_bounds(obj, matrix, world_size),
+    )
+
+
+def _surface_bounds(obj: bpy.types.Object, matrix: Matrix, world_size: float) -> SurfaceBounds:
+    corners = [matrix @ Vector(corner) for corner in obj.bound_box]
+    mesh = obj.original.data
+    # Modifiers change the normals, and a non-uniform scale distorts the cone.
+    cone = mesh.get(MEASURED_CONE)
+    scales = [column.to_3d().length for column in matrix.col[:3]]
+    if cone is None or len(obj.modifiers) or max(scales) - min(scales) > 1e-4 * max(scales):
+        normal_cone = ((0.0, 0.0, 1.0), pi)
+    else:
+        normal_cone = (tuple(-(matrix.to_3x3() @ Vector(cone[:3])).normalized()), cone[3])
+    return SurfaceBounds(
+        min=tuple(map(min, *corners)),
+        max=tuple(map(max, *corners)),
+        normal_cone=normal_cone,
+        depth_per_mm=scale_since_measured(mesh, world_size) / mesh.get(MEASURED_UNIT, MM_PER_METER),
+    )
+
+
+def _base_key(settings: bpy.types.PropertyGroup) -> tuple:
+    """(kind, size, max thickness in mm, ...): everything the base lookup depends on."""
+    size, max_thickness = settings.size, as_typed(settings.max_thickness_mm)
+    if settings.mode == "PHYSICAL" or (settings.mode == "PAPER" and settings.base == "SKIN"):
+        kind = "TISSUE" if settings.mode == "PHYSICAL" else "TISSUE_GRAY"
+        return kind, size, max_thickness, tuple(as_typed(getattr(settings, name)) for name in TISSUE_SLIDERS)
+    if settings.mode == "PAPER" and settings.base == "IMAGE":
+        image = settings.base_image
+        if image is None:
+            return "IMAGE", 1, max_thickness, "", ""
+        return "IMAGE", max(image.size[0], 1), max_thickness, image.original.name_full, image.colorspace_settings.name
+    return "BUILTIN", size, max_thickness
+
+
+def _triple(vector: bpy.types.bpy_prop_array) -> tuple[float, float, float]:
+    return as_typed(vector[0]), as_typed(vector[1]), as_typed(vector[2])
+
+
+def _reference_point(obj: bpy.types.Object, matrix: Matrix) -> tuple[float, float, float]:
+    settings = obj.skinglow
+    if settings.reference == "POINT":
+        return _triple(settings.reference_point)
+    if settings.reference == "ORIGIN":
+        origin = matrix.col[3]
+        return origin[0], origin[1], origin[2]
+    # In double precision: mathutils rounds to single, which would cost the distances their last digits.
+    box = obj.bound_box
+    (ax, ay, az), (bx, by, bz) = box[0], box[6]
+    x, y, z = (ax + bx) / 2.0, (ay + by) / 2.0, (az + bz) / 2.0
+    (a, b, c, d), (e, f, g, h), (i, j, k, m), _ = matrix
+    return a * x + b * y + c * z + d, e * x + f * y + g * z + h, i * x + j * y + k * z + m

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A world's image as nine spherical-harmonic coefficients, reread only when its pixels may have changed."""
+
+import os
+from typing import Any
+
+import bpy
+
+from ..errors import SkinError, core
+from .image_pixels import linear_pixels
+
+#: Blender does not report painted pixels: an image that was edited and not saved is reread at each update up to this
+#: size (some 10 ms); larger ones only after `forget_edited`.
+MAX_EDITED_PIXELS = 1 << 20
+
+#: (name with library, projection) to (source of the pixels, skinglow.Environment or the error).
+_read: dict[tuple[str, str], tuple[tuple, Any]] = {}
+
+
+def environment_of_image(name: str, projection: str) -> Any:  # noqa: ANN401  a skinglow.Environment
+    """The environment of an image (name with library), not rotated. Raises SkinError if it cannot be used."""
+    image = next((each for each in bpy.data.images if each.name_full == name), None)
+    if image is None:
+        raise SkinError(f"its image '{name}' no longer exists")
+    source = _source_of(image)
+    known = _read.get((name, projection))
+    edited = image.is_dirty and image.size[0] * image.size[1] <= MAX_EDITED_PIXELS
+    # Reloading leaves an image without data until it is read; not every version reports it.
+    if known is None or known[0] != source or edited or not image.has_data:
+        known = _read[name, projection] = (source, _compute(image, projection))
+    if isinstance(known[1], SkinError):
+        raise known[1]
+    return known[1]
+
+
+def forget(name: str | None = None) -> None:
+    """Rereads an image at the next update; without a name, all images."""
+    for key in [key for key in _read if name in (None, key[0])]:
+        del _read[key]
+
+
+def forget_edited() -> None:
+    """Rereads all images that were edited in Blender and not saved since."""
+    for image in bpy.data.images:
+        if image.is_dirty:
+            forget(image.name_full)
+
+
+def is_known(name: str) -> bool:
+    """Whether a world uses or used that image."""
+    return any(key[0] == name for key in _read)
+
+
+def _source_of(image: bpy.types.Image) -> tuple:
+    """What the pixels depend on, as far as it is known without reading them."""
+    path = bpy.path.abspath(image.filepath, library=image.library)
+    try:
+        written = os.stat(path).st_mtime_ns
+    except OSError:
+        written = None
+    packed = image.packed_file.size if image.packed_file is not None else None
+    return image.source, path, written, packed, tuple(image.size), image.colorspace_settings.name
+
+
+def _compute(image: bpy.types.Image, projection: str) -> Any:  # noqa: ANN401
+    if image.source not in ("FILE", "GENERATED"):
+        return SkinError(f"its image '{image.name}' is a {image.source.lower()}, which is not supported")
+    try:
+        return core().Environment.from_image(linear_pixels(image), projection=projection, bottom_first=True)
+    except (SkinError, ValueError) as error:
+        return SkinError(f"its image {error}" if isinstance(error, SkinError) else f"its image '{image.name}': {error}")

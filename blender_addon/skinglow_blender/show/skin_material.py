@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Inserts the skin's node group into an object's materials and removes it."""
+
+import bpy
+import numpy as np
+
+from .. import blender_version
+from ..errors import SkinError
+from ..read import working_space
+from .lut_image import is_skin_group, skin_groups
+from .skin_group import new_group
+
+#: Custom property of the node in a material: the material's original emission sampling.
+SAMPLING_PROPERTY = "skinglow_sampling"
+#: A light skin, linear Rec.709, for objects without a material: the light skin patch of the ColorChecker chart
+#: (sRGB 194, 150, 130; X-Rite's published values).
+PLAIN_SKIN_COLOR = (0.5395, 0.3050, 0.2232)
+PLAIN_SKIN_ROUGHNESS = 0.45
+
+
+def add_to_materials(obj: bpy.types.Object, group: bpy.types.NodeTree | None) -> bpy.types.NodeTree:
+    """Inserts the group after the surface of each of an object's materials; returns the group in use.
+
+    A material that already has a skin group keeps it, so that objects which share a material share the group.
+    """
+    materials = [slot.material for slot in obj.material_slots if slot.material is not None]
+    if not materials:
+        materials = [_plain_skin(obj)]
+    for material in materials:
+        existing = skin_node(material)
+        if existing is not None:
+            group = existing.node_tree
+            break
+    for material in materials:
+        if material.library is not None and skin_node(material) is None:
+            raise SkinError(
+                f"Material '{material.name}' of '{obj.name}' belongs to {material.library.filepath}: make it local "
+                "(Object > Relations > Make Local > ... and Materials) or make the skin in that file"
+            )
+    if group is None:
+        group = next((g for g in skin_groups() if g.library is None), None) or new_group()
+    for material in materials:
+        node = skin_node(material)
+        if node is None:
+            _insert(material, group)
+        elif node.node_tree != group:
+            node.node_tree = group
+    return group
+
+
+def skin_node(material: bpy.types.Material) -> bpy.types.Node | None:
+    """The material's skin group node, or None."""
+    tree = blender_version.shader_tree(material)
+    if tree is None:
+        return None
+    return next((n for n in tree.nodes if n.bl_idname == "ShaderNodeGroup" and is_skin_group(n.node_tree)), None)
+
+
+def remove_from_material(material: bpy.types.Material) -> None:
+    """Removes the group and reconnects the surface to the output."""
+    tree = blender_version.shader_tree(material)
+    node = skin_node(material)
+    while node is not None:
+        before = node.inputs[0].links[0].from_socket if node.inputs[0].is_linked else None
+        after = [link.to_socket for link in node.outputs[0].links]
+        for socket in after:
+            if before is not None:
+                tree.links.new(before, socket)
+        if SAMPLING_PROPERTY in node:
+            blender_version.set_emission_sampling(material, node[SAMPLING_PROPERTY])
+        tree.nodes.remove(node)
+        node = skin_node(material)
+
+
+def _insert(material: bpy.types.Material, group: bpy.types.NodeTree) -> None:
+    # Otherwise Cycles samples each face of the skin as a light and spends most of its samples on them: three times the
+    # render time, for light too faint to need direct sampling.
+    sampling = blender_version.emission_sampling(material)
+    blender_version.set_emission_sampling(material, blender_version.NO_EMISSION_SAMPLING)
+    plain = blender_version.shader_tree(material) is None
+    tree = blender_version.ensure_shader_tree(material)
+    if plain:
+        _color_principled(tree, tuple(material.diffuse_color), material.roughness)
+    outputs = {o for o in (tree.get_output_node(t) for t in ("ALL", "CYCLES", "EEVEE")) if o is not None}
+    if not outputs:
+        outputs = {tree.nodes.new("ShaderNodeOutputMaterial")}
+    for output in outputs:
+        surface = output.inputs["Surface"]
+        node = tree.nodes.new("ShaderNodeGroup")
+        node.node_tree = group
+        if sampling is not None:
+            node[SAMPLING_PROPERTY] = sampling
+        node.location = (output.location.x, output.location.y)
+        output.location.x += 200
+        if surface.is_linked:
+            tree.links.new(surface.links[0].from_socket, node.inputs["Surface"])
+        tree.links.new(node.outputs["Shader"], surface)
+
+
+def _plain_skin(obj: bpy.types.Object) -> bpy.types.Material:
+    if obj.data.library is not None:
+        raise SkinError(f"'{obj.name}' has no material, and its mesh is linked from a library: add a material there")
+    material = bpy.data.materials.new("Skin")
+    tree = blender_version.ensure_shader_tree(material)
+    color = working_space.from_rec709(np.array(PLAIN_SKIN_COLOR))
+    _color_principled(tree, (*color, 1.0), PLAIN_SKIN_ROUGHNESS)
+    if obj.material_slots:
+        obj.material_slots[0].material = material
+    else:
+        obj.data.materials.append(material)
+    return material
+
+
+def _color_principled(tree: bpy.types.NodeTree, color: tuple[float, ...], roughness: float) -> None:
+    principled = next((n for n in tree.nodes if n.bl_idname == "ShaderNodeBsdfPrincipled"), None)
+    if principled is not None:
+        principled.inputs["Base Color"].default_value = color
+        principled.inputs["Roughness"].default_value = roughness

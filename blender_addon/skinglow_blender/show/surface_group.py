@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The node group of a skin that is lit per pixel: color = sum over j of column_j(d) E_j(x, n).
+
+Everything that depends on the lights is stored in texels of the skin's row, and all texels are read through one small
+inner group. So a changed light needs new pixels and one swapped image only, as with plain rows, and no new shader.
+"""
+
+from functools import partial, reduce
+
+import bpy
+
+from .. import blender_version
+from ..table.lut_layout import LAYOUT_PROPERTY, Layout
+from .light_term_nodes import FarSide, LightTexels, light_irradiance
+from .lut_image import SURFACE_NODE, TEXEL_NODE, show_image, shown_image
+from .node_building import NodeBuilder, Socket
+from .skin_group import INNER_GROUPS, RowSockets, clear, finish, new_lookup
+
+
+def build_surface(group: bpy.types.NodeTree, layout: Layout) -> None:
+    """Rebuilds a skin group's nodes for that layout; its images are kept."""
+    image = shown_image(group)
+    clear(group)
+    build = NodeBuilder(group, -2400.0, 200.0)
+    row = RowSockets(build)
+    texels = _Texels(build, row, _texel_group())
+    constant, depth_per_mm = texels.read(layout.constant)
+    far = _far_side(build, row, depth_per_mm, tuple(texels.read(layout.angular + i)[0] for i in range(4)))
+    parts = []
+    if layout.world:
+        parts.append(_world(build, far, [texels.read(layout.polynomial + i)[0] for i in range(9)]))
+    first = layout.terms
+    for count, profiled in ((layout.plain, False), (layout.profiled, True)):
+        inner = _light_group(profiled) if count else None
+        for i in range(count):
+            light_node = _instance(build, inner, f"Light {i + 1}{' with profile' if profiled else ''}")
+            for k, part in enumerate(LightTexels.parts(profiled)):
+                color, alpha = texels.read(first + 4 * i + k)
+                build.set(light_node.inputs[part], color)
+                build.set(light_node.inputs[f"{part} 4"], alpha)
+            build.set(light_node.inputs["far point"], far.point)
+            build.set(light_node.inputs["normal"], far.normal)
+            for k, coefficient in enumerate(far.angular):
+                build.set(light_node.inputs[f"angular {k}"], coefficient)
+            parts.append(light_node.outputs[0])
+        first += 4 * count
+    light = constant
+    if parts:
+        # Clamp the sum, not the polynomial: far lights of negative power take light from the others.
+        shown = build.vector("MAXIMUM", reduce(partial(build.vector, "ADD"), parts), (0.0, 0.0, 0.0))
+        light = build.vector("ADD", constant, shown)
+    finish(build, _transmitted(build, row, texels, layout, light), row.strength)
+    group[LAYOUT_PROPERTY] = tuple(int(n) for n in layout)
+    if image is not None:
+        show_image(group, image)
+
+
+def _transmitted(build: NodeBuilder, row: RowSockets, texels: "_Texels", layout: Layout, light: Socket) -> Socket:
+    """M(d) times the light, interpolated between the two entries next to the thickness."""
+    last = float(layout.entries - 1)
+    texel = build.math("MINIMUM", row.texel, last)
+    below = build.math("FLOOR", texel)
+    fraction = build.math("SUBTRACT", texel, below)
+    above = build.math("MINIMUM", build.math("ADD", below, 1.0), last)
+    total = None
+    for j, channel in enumerate(build.split(light)):
+        lower, upper = (texels.read_at(build.math("ADD", entry, float(j * layout.entries))) for entry in (below, above))
+        column = build.vector("MULTIPLY_ADD", build.vector("SUBTRACT", upper, lower), fraction, lower)
+        total = (
+            build.vector("SCALE", column, channel)
+            if total is None
+            else build.vector("MULTIPLY_ADD", column, channel, total)
+        )
+    return total
+
+
+class _Texels:
+    """Reads texels of the skin's row through the inner group."""
+
+    def __init__(self, build: NodeBuilder, row: RowSockets, inner: bpy.types.NodeTree) -> None:
+        self.build, self.row, self.inner = build, row, inner
+
+    def _node(self, texel: Socket | float) -> bpy.types.Node:
+        node = _instance(self.build, self.inner, "Texel")
+        if TEXEL_NODE not in self.build.tree.nodes:
+            node.name = TEXEL_NODE
+        for name, value in (("Texel", texel), ("Texel width", self.row.texel_width), ("Row", self.row.row)):
+            self.build.set(node.inputs[name], value)
+        return node
+
+    def read(self, texel: int) -> tuple[Socket, Socket]:
+        """Color and alpha of a fixed texel."""
+        node = self._node(float(texel))
+        return node.outputs["Color"], node.outputs["Alpha"]
+
+    def read_at(self, texel: Socket) -> Socket:
+        """Color of a texel that depends on the pixel."""
+        return self._node(texel).outputs["Color"]
+
+
+def _instance(build: NodeBuilder, inner: bpy.types.NodeTree, label: str) -> bpy.types.Node:
+    node = build.node("ShaderNodeGroup", label)
+    node.node_tree = inner
+    return node
+
+
+def _inner_group(name: str, inputs: dict[str, str], outputs: dict[str, str]) -> tuple[NodeBuilder, bpy.types.Node]:
+    tree = bpy.data.node_groups.new(name, "ShaderNodeTree")
+    for in_out, sockets in (("INPUT", inputs), ("OUTPUT", outputs)):
+        for socket, kind in sockets.items():
+            blender_version.new_group_socket(tree, socket, f"NodeSocket{kind}", in_out, "")
+    build = NodeBuilder(tree, 0.0, 0.0)
+    return build, build.node("NodeGroupInput")
+
+
+def _texel_group() -> bpy.types.NodeTree:
+    build, entry = _inner_group(
+        INNER_GROUPS[0],
+        {"Texel": "Float", "Texel width": "Float", "Row": "Float"},
+        {"Color": "Color", "Alpha": "Float"},
+    )
+    center = build.math("ADD", entry.outputs["Texel"], 0.5)
+    u = build.math("MULTIPLY", center, entry.outputs["Texel width"])
+    lookup = new_lookup(build, build.combine(u, entry.outputs["Row"]), SURFACE_NODE)
+    out = build.node("NodeGroupOutput")
+    build.set(out.inputs["Color"], lookup.outputs["Color"])
+    build.set(out.inputs["Alpha"], lookup.outputs["Alpha"])
+    return build.tree
+
+
+def _light_group(profiled: bool) -> bpy.types.NodeTree:
+    inputs = {}
+    for part in LightTexels.parts(profiled):
+        inputs |= {part: "Vector", f"{part} 4": "Float"}
+    inputs |= {"far point": "Vector", "normal": "Vector"} | {f"angular {k}": "Vector" for k in range(4)}
+    build, entry = _inner_group(INNER_GROUPS[2 if profiled else 1], inputs, {"Irradiance": "Vector"})
+    given = entry.outputs
+    light = LightTexels(*((given[part], given[f"{part} 4"]) for part in LightTexels.parts(profiled)))
+    far = FarSide(given["far point"], given["normal"], tuple(given[f"angular {k}"] for k in range(4)))
+    out = build.node("NodeGroupOutput")
+    build.set(out.inputs["Irradiance"], light_irradiance(build, light, far, profiled))
+    return build.tree
+
+
+def _far_side(build: NodeBuilder, row: RowSockets, depth_per_mm: Socket, angular: tuple[Socket, ...]) -> FarSide:
+    geometry = build.node("ShaderNodeNewGeometry")
+    # Blender flips the normal of a back face towards the viewer.
+    sign = build.math("MULTIPLY_ADD", geometry.outputs["Backfacing"], 2.0, -1.0)
+    normal = build.vector("SCALE", geometry.outputs["Normal"], sign, label="Far-side normal")
+    depth = build.math("MULTIPLY", row.thickness, depth_per_mm)
+    point = build.vector("MULTIPLY_ADD", normal, depth, geometry.outputs["Position"], label="Far point")
+    return FarSide(point, normal, angular)
+
+
+def _world(build: NodeBuilder, far: FarSide, coefficients: list[Socket]) -> Socket:
+    """The polynomial of skinglow.SurfaceLighting in the far side's normal."""
+    x, y, z = build.split(far.normal)
+    squares = build.math("MULTIPLY_ADD", build.math("MULTIPLY", z, z), 3.0, -1.0)
+    difference = build.math("MULTIPLY", build.math("ADD", x, y), build.math("SUBTRACT", x, y))
+    products = (build.math("MULTIPLY", a, b) for a, b in ((x, y), (y, z), (x, z)))
+    xy, yz, xz = products
+    total = coefficients[0]
+    for coefficient, term in zip(coefficients[1:], (y, z, x, xy, yz, squares, xz, difference), strict=True):
+        total = build.vector("MULTIPLY_ADD", coefficient, term, total)
+    return total

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fraction of each light that other objects let through to a skin's far side (mode physical)."""
+
+from typing import Any, NamedTuple
+
+import bpy
+import numpy as np
+
+from ..errors import SkinError, core
+from ..read.mesh_reading import MeshCache
+from ..read.scene_lights import SceneLight, make_light
+from ..read.scene_reading import SceneReading, Skin
+from .far_side import FarSide, far_side_of
+
+
+class _Body(NamedTuple):
+    """An object, or an instance of one, that casts shadows."""
+
+    key: str  #: of the original object
+    version: int  #: of its mesh
+    matrix: tuple[float, ...]  #: object to world, row-major
+
+
+class _Pass(NamedTuple):
+    """The result of one pass over a depsgraph."""
+
+    bodies: list[_Body]
+    meshes: dict[int, Any]  #: arrays by version
+    far_sides: dict[str, FarSide]  #: of the requested skins, by key
+    own: dict[str, int]  #: index of each such skin's own body, if it casts shadows
+
+
+class _Occluders:
+    """The occluders of one depsgraph mode, rebuilt only when one of them changes."""
+
+    def __init__(self) -> None:
+        self.meshes = MeshCache()
+        self.bodies: list[_Body] | None = None
+        self.scene: Any = None  #: a skinglow.Occluders
+
+    def update(self, found: _Pass) -> None:
+        if self.bodies == found.bodies:
+            return
+        self.bodies = self.scene = None
+        near = next((far.points for far in found.far_sides.values() if len(far.points)), None)
+        meshes = []
+        for body in found.bodies:
+            arrays = found.meshes[body.version]
+            matrix = np.array(body.matrix).reshape(4, 4)
+            meshes.append((arrays.vertices @ matrix[:3, :3].T + matrix[:3, 3], arrays.triangles))
+        # Rays are traced in single precision, which is finest about the origin: put that where the skins are.
+        self.scene = core().Occluders(meshes, near.mean(axis=0) if near is not None else None)
+        self.bodies = found.bodies
+
+
+#: By depsgraph mode: viewport and render show different objects.
+_by_mode: dict[str, _Occluders] = {}
+
+
+def forget(mode: str | None = None) -> None:
+    """Frees the occluders of a depsgraph mode, or of both."""
+    for each in [mode] if mode is not None else list(_by_mode):
+        _by_mode.pop(each, None)
+
+
+def with_visible_fractions(
+    reading: SceneReading, depsgraph: bpy.types.Depsgraph, faults: dict[str, str]
+) -> SceneReading:
+    """The reading with each light's visible fraction from each skin; unchanged if the scene's occlusion is off.
+
+    A skin whose rays cannot be traced is removed from the reading and added to the faults; it keeps its last good
+    lookup.
+    """
+    if not depsgraph.scene.skinglow.occlusion:
+        forget()
+        return reading
+    requested = {skin.key: skin for _obj, skin in reading.skins if skin.mode == "PHYSICAL"}
+    if not requested or not reading.lights:
+        return reading
+    try:
+        fractions = _visible_fractions(requested, reading.lights, depsgraph)
+    except (SkinError, ValueError, RuntimeError, MemoryError) as error:
+        forget(depsgraph.mode)
+        faults.update(
+            {key: f"{skin.name}: the occlusion of its lights failed: {error}" for key, skin in requested.items()}
+        )
+        return reading._replace(skins=[(obj, skin) for obj, skin in reading.skins if skin.key not in requested])
+    lights = [
+        light._replace(visible={key: row[i] for key, row in fractions.items()})
+        for i, light in enumerate(reading.lights)
+    ]
+    return reading._replace(lights=lights)
+
+
+def _visible_fractions(
+    skins: dict[str, Skin], lights: list[SceneLight], depsgraph: bpy.types.Depsgraph
+) -> dict[str, list[float]]:
+    """For each skin one fraction per light, 0 to 1."""
+    if not hasattr(core(), "Occluders"):
+        raise SkinError("this build of the core was made without Embree and traces no rays; turn Occlusion off")
+    occluders = _by_mode.setdefault(depsgraph.mode, _Occluders())
+    found = _read_pass(depsgraph, skins, occluders.meshes)
+    occluders.update(found)
+    fractions = {}
+    for key, skin in skins.items():
+        row = [1.0] * len(lights)
+        far = found.far_sides.get(key)
+        traced = [
+            i
+            for i, light in enumerate(lights)
+            if light.casts_shadows and not light.unlit_reason and light.lights(skin.key)
+        ]
+        if far is not None and traced:
+            own = [found.own[key]] if key in found.own else []
+            core_lights = [make_light(lights[i]) for i in traced]
+            visible = occluders.scene.visible_fraction(core_lights, far.points, far.normals, excluded=own).mean
+            for i, fraction in zip(traced, visible, strict=True):
+                row[i] = float(fraction)
+        fractions[key] = row
+    return fractions
+
+
+def _read_pass(depsgraph: bpy.types.Depsgraph, skins: dict[str, Skin], cache: MeshCache) -> _Pass:
+    """Reads bodies in depsgraph order, and the skins' far sides; instances are valid during the iteration only."""
+    found = _Pass([], {}, {}, {})
+    layer = depsgraph.view_layer if depsgraph.mode == "VIEWPORT" else None
+    cache.start(depsgraph)
+    for instance in depsgraph.object_instances:
+        obj, parent = instance.object, instance.parent
+        if obj.type != "MESH" or not instance.show_self:
+            continue
+        # Collections hidden in the viewport by their eye icon are still in the viewport's depsgraph.
+        if layer is not None and not (parent if instance.is_instance else obj).original.visible_get(view_layer=layer):
+            continue
+        key = obj.original.name_full
+        matrix = instance.matrix_world
+        is_skin = key in skins and key not in found.far_sides
+        if is_skin:
+            found.far_sides[key] = far_side_of(obj, matrix, skins[key])
+        if not obj.visible_shadow or (instance.is_instance and not parent.visible_shadow):
+            continue
+        arrays = cache.read(obj)
+        if not len(arrays.triangles):
+            continue
+        if is_skin:
+            found.own[key] = len(found.bodies)
+        found.meshes[arrays.version] = arrays
+        found.bodies.append(_Body(key, arrays.version, tuple(value for row in matrix for value in row)))
+    return found

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The lists of lights in the panel, cached between redraws and refilled after an edit.
+
+Drawing must not write data, and happens with every mouse move. So it only compares stamps and requests lists that are
+out of date; a timer fills them a moment later and redraws the panels. The lists belong to the window manager, so they
+are not part of a scene and not affected by undo.
+"""
+
+from typing import Any
+
+import bpy
+from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
+
+from ..commands.light_listing import light_report
+from ..errors import SkinError
+from ..live.live_update import STATE
+from ..read.scene_reading import SceneReading
+
+#: Seconds between a request and the update: the update interval while a light is dragged.
+DELAY = 0.05
+
+#: By skin: (STATE.updates, scene, view layer) of the filled list, and of the lists requested by drawing.
+_filled: dict[str, tuple[int, str, str]] = {}
+_requested: dict[str, tuple[int, str, str]] = {}
+
+
+class LightRow(bpy.types.PropertyGroup):
+    """The row of a light, from light_listing.light_report."""
+
+    name: StringProperty(name="Light")
+    kind: StringProperty()
+    share: FloatProperty(name="Fraction", description="Fraction of all light on this skin, 0 to 1")
+    weight: FloatVectorProperty(
+        name="Weight",
+        size=3,
+        precision=4,
+        description="Red, green and blue: color times attenuation, or irradiance in W/m^2 in Physical mode",
+    )
+    distance: FloatProperty(default=-1.0)
+    reason: StringProperty()
+    note: StringProperty()
+    swatch: FloatVectorProperty(
+        name="Color",
+        subtype="COLOR",
+        size=3,
+        min=0.0,
+        max=1.0,
+        get=lambda row: _hue(row.weight),
+        description="Color of the light on this skin, at full brightness",
+    )
+
+
+class LightList(bpy.types.PropertyGroup):
+    """The rows of a skin, strongest light first; named after the skin."""
+
+    rows: CollectionProperty(type=LightRow)
+    active: IntProperty(name="Light", description="Light whose details are shown below the list")
+
+
+def list_of(obj: bpy.types.Object, context: bpy.types.Context) -> LightList | None:
+    """A skin's list as last filled, or None; requests an update if it is out of date. For draw()."""
+    key = obj.name_full
+    stamp = (STATE.updates, context.scene.name, context.view_layer.name)
+    if _filled.get(key) != stamp:
+        _requested[key] = stamp
+        # There are no timers in background mode.
+        if not bpy.app.background and not bpy.app.timers.is_registered(_fill_soon):
+            bpy.app.timers.register(_fill_soon, first_interval=DELAY)
+    return context.window_manager.skinglow_lists.get(key)
+
+
+def fill_requested() -> int:
+    """Fills the requested lists; returns their number."""
+    lists = bpy.context.window_manager.skinglow_lists
+    filled = 0
+    while _requested:
+        key, stamp = _requested.popitem()
+        obj = next((o for o in bpy.data.objects if o.name_full == key), None)
+        layer = _view_layer(*stamp[1:])
+        if obj is None or layer is None or layer.depsgraph is None:
+            continue
+        try:
+            rows = light_report(obj, layer.depsgraph, _last_reading(layer.depsgraph, stamp[0]))
+        except (SkinError, ValueError):
+            continue  # the panel shows the fault of the update
+        _fill(lists.get(key) or _new_list(lists, key), rows)
+        _filled[key] = stamp
+        filled += 1
+    return filled
+
+
+def _last_reading(depsgraph: bpy.types.Depsgraph, updates: int) -> SceneReading | None:
+    """What the update read for which the list was requested, if it was of that depsgraph: nothing changed since."""
+    if STATE.reading is None or STATE.updates != updates or STATE.reading[0] != depsgraph.as_pointer():
+        return None
+    return STATE.reading[1]
+
+
+def _fill_soon() -> None:
+    if STATE.rendering or not fill_requested():
+        return
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type in ("VIEW_3D", "PROPERTIES"):
+                area.tag_redraw()
+
+
+def _view_layer(scene: str, layer: str) -> bpy.types.ViewLayer | None:
+    found = bpy.data.scenes.get(scene)
+    return found.view_layers.get(layer) if found is not None else None
+
+
+def _new_list(lists: bpy.types.bpy_prop_collection, key: str) -> LightList:
+    there = {obj.name_full for obj in bpy.data.objects}
+    for i in reversed(range(len(lists))):
+        if lists[i].name not in there:
+            _filled.pop(lists[i].name, None)
+            lists.remove(i)
+    made = lists.add()
+    made.name = key
+    return made
+
+
+def _fill(lights: LightList, rows: list[dict[str, Any]]) -> None:
+    chosen = lights.rows[lights.active].name if lights.active < len(lights.rows) else ""
+    lights.rows.clear()
+    lights.active = 0
+    for i, found in enumerate(sorted(rows, key=lambda row: (-row["share"], bool(row["reason"]), row["name"]))):
+        row = lights.rows.add()
+        for field in ("name", "kind", "share", "weight", "reason", "note"):
+            setattr(row, field, found[field])
+        row.distance = -1.0 if found["distance"] is None else found["distance"]
+        if row.name == chosen:
+            lights.active = i
+
+
+def _hue(weight: bpy.types.bpy_prop_array) -> tuple[float, float, float]:
+    brightest = max(*weight, 0.0)
+    if brightest == 0.0:
+        return 0.0, 0.0, 0.0
+    return tuple(max(part, 0.0) / brightest for part in weight)
+
+
+def register() -> None:
+    """Adds the lists to the window manager."""
+    bpy.utils.register_class(LightRow)
+    bpy.utils.register_class(LightList)
+    bpy.types.WindowManager.skinglow_lists = CollectionProperty(type=LightList)
+
+
+def unregister() -> None:
+    """Removes the lists and their contents."""
+    if bpy.app.timers.is_registered(_fill_soon):
+        bpy.app.timers.unregister(_fill_soon)
+    for manager in bpy.data.window_managers:
+        manager.property_unset("skinglow_lists")
+    del bpy.types.WindowManager.skinglow_lists
+    bpy.utils.unregister_class(LightList)
+    bpy.utils.unregister_class(LightRow)
+    _filled.clear()
+    _requested.clear()

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The list of lights: the contribution of each to the skin, or why it has none."""
+
+import bpy
+
+from ..commands.skin import choice_of
+from . import light_list
+from .wrapped_text import draw_wrapped
+
+MIN_ROWS = 4
+MAX_ROWS = 12
+
+
+class SKINGLOW_UL_lights(bpy.types.UIList):  # noqa: N801  Blender's naming
+    """One light per row: a color swatch and its fraction of the light, or why it contributes nothing."""
+
+    bl_idname = "SKINGLOW_UL_lights"
+
+    def draw_item(
+        self,
+        _context: bpy.types.Context,
+        layout: bpy.types.UILayout,
+        _lights: light_list.LightList,
+        row: light_list.LightRow,
+        _icon: int,
+        _active_data: light_list.LightList,
+        _active_property: str,
+        *_more: int,
+    ) -> None:
+        line = layout.row(align=True)
+        if row.reason:
+            line.active = False
+            parts = line.split(factor=0.5, align=True)
+            parts.label(text=row.name, icon=_icon_of(row.kind))
+            parts.label(text=row.reason)
+        else:
+            line.label(text=row.name, icon=_icon_of(row.kind))
+            _column(line, 1.0).prop(row, "swatch", text="")
+            fraction = _column(line, 2.0)
+            fraction.alignment = "RIGHT"
+            fraction.label(text="<1%" if 0.0 < row.share < 0.01 else f"{row.share:.0%}")
+        if row.kind == "WORLD":
+            return
+        button = line.operator("skinglow.select_light", text="", icon="RESTRICT_SELECT_OFF", emboss=False)
+        button.light = row.name
+
+
+def _column(line: bpy.types.UILayout, units: float) -> bpy.types.UILayout:
+    column = line.row(align=True)
+    column.ui_units_x = units
+    return column
+
+
+def draw_lights(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context) -> None:
+    """The list, and the details of the active light below."""
+    if obj.skinglow.mode == "EXISTING":
+        layout.label(text="Fixed mode ignores the lights", icon="INFO")
+        return
+    if obj.skinglow.mode == "PHYSICAL":
+        _draw_lighting(layout, obj, context)
+    lights = light_list.list_of(obj, context)
+    if lights is None:
+        layout.label(text="Updating lights...", icon="LIGHT")
+        return
+    if not lights.rows:
+        layout.label(text="No lights in this scene", icon="LIGHT")
+        return
+    rows = min(max(len(lights.rows), MIN_ROWS), MAX_ROWS)
+    layout.template_list(
+        SKINGLOW_UL_lights.bl_idname, obj.name_full, lights, "rows", lights, "active", rows=rows, maxrows=MAX_ROWS
+    )
+    if 0 <= lights.active < len(lights.rows):
+        _draw_details(layout, lights.rows[lights.active], obj.skinglow.mode == "PHYSICAL", context)
+
+
+def _icon_of(kind: str) -> str:
+    return "WORLD" if kind == "WORLD" else f"LIGHT_{kind}"
+
+
+def _draw_lighting(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context) -> None:
+    """How a skin in Physical mode is lit, and what Automatic has chosen."""
+    column = layout.column(align=True)
+    column.use_property_split, column.use_property_decorate = True, False
+    column.prop(obj.skinglow, "weights")
+    choice = choice_of(obj, context.view_layer.depsgraph)
+    if choice.bound is not None:
+        if choice.weights == "SURFACE":
+            text = f"Lit per pixel: a single weight may be {choice.bound:.0%} off"
+        else:
+            text = f"Lit per object: may be {choice.bound:.0%} off"
+        draw_wrapped(column, text, context, "INFO")
+    column.prop(context.scene.skinglow, "occlusion")
+
+
+def _draw_details(
+    layout: bpy.types.UILayout, row: light_list.LightRow, physical: bool, context: bpy.types.Context
+) -> None:
+    column = layout.column(align=True)
+    if row.reason:
+        draw_wrapped(column, f"No light from {row.name}: {row.reason}", context, icon="INFO")
+    else:
+        numbers = "  ".join(f"{part:.3g}" for part in row.weight)
+        column.label(text=row.name, icon=_icon_of(row.kind))
+        column.label(text=f"RGB  {numbers}{' W/m^2' if physical else ''}", icon="BLANK1")
+        distant = {"SUN": "at infinite distance", "WORLD": "from all directions"}
+        where = distant.get(row.kind, f"at a distance of {row.distance:.4g} units")
+        draw_wrapped(column, f"{row.share:.1%} of all light, {where}", context, icon="BLANK1")
+    if row.note:
+        draw_wrapped(column, row.note, context, icon="ERROR")
+
+
+CLASSES = (SKINGLOW_UL_lights,)

@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operators that measure thickness: in the background of a window, synchronously from scripts."""
+
+from typing import ClassVar
+
+import bpy
+
+from ..commands import skin
+from ..errors import SkinError
+from ..read.measured_geometry import Geometry, read_geometry
+from ..thickness import thickness_attribute
+from ..thickness.measuring import Measuring
+from .operators import selected_meshes, selected_skins
+
+#: Seconds between two checks of the thread.
+INTERVAL = 0.1
+
+
+class _MeasuringOperator:
+    """Measures first and changes the file only when everything is measured: canceling loses nothing."""
+
+    bl_options = {"REGISTER", "UNDO"}
+    #: The running measurement, for the panel's progress bar and for the poll of other operators.
+    current: ClassVar[Measuring | None] = None
+
+    def to_measure(self, context: bpy.types.Context) -> dict[str, Geometry]:
+        """The geometry to measure; raises SkinError for a mesh that cannot be measured."""
+        raise NotImplementedError
+
+    def finish(self, context: bpy.types.Context, names: list[str]) -> str:
+        """Runs after the thickness of the meshes is stored; returns the message to report."""
+        raise NotImplementedError
+
+    def targets(self, context: bpy.types.Context) -> list[bpy.types.Object]:
+        """The objects that the operator acts on."""
+        raise NotImplementedError
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            self._names = [obj.name_full for obj in self.targets(context)]
+            geometries = self.to_measure(context)
+            thicknesses = {name: thickness_attribute.measure(geometry) for name, geometry in geometries.items()}
+        except (SkinError, ValueError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return self._store(context, geometries, thicknesses)
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        if bpy.app.background:
+            return self.execute(context)
+        try:
+            self._names = [obj.name_full for obj in self.targets(context)]
+            geometries = self.to_measure(context)
+            if not geometries:
+                return self._store(context, {}, {})
+            _MeasuringOperator.current = Measuring(geometries)
+        except (SkinError, ValueError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self._timer = context.window_manager.event_timer_add(INTERVAL, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        _show_progress(context)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        measuring = _MeasuringOperator.current
+        if event.type == "ESC" and event.value == "PRESS":
+            measuring.canceled = True
+            return {"RUNNING_MODAL"}
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        _show_progress(context)
+        # The thread first finishes a block of vertices. If the user has entered Edit Mode meanwhile, the result waits
+        # until they leave it.
+        if measuring.running or (context.mode != "OBJECT" and not measuring.canceled):
+            return {"PASS_THROUGH"}
+        self._end(context)
+        if measuring.canceled:
+            self.report({"INFO"}, "Measuring canceled, nothing was changed")
+            return {"CANCELLED"}
+        try:
+            thicknesses = measuring.wait()
+        except (SkinError, ValueError, RuntimeError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return self._store(context, measuring.geometries, thicknesses)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Called by Blender when a file is loaded or the window is closed."""
+        stop_measuring()
+        self._end(context)
+
+    def _end(self, context: bpy.types.Context) -> None:
+        _MeasuringOperator.current = None
+        context.window_manager.event_timer_remove(self._timer)
+        if context.workspace is not None:
+            context.workspace.status_text_set(None)
+        redraw_panels(context)
+
+    def _store(self, context: bpy.types.Context, geometries: dict, thicknesses: dict) -> set[str]:
+        try:
+            for name, values in thicknesses.items():
+                thickness_attribute.store_measured(_object(name), context.scene, geometries[name], *values)
+            self.report({"INFO"}, self.finish(context, self._names))
+            for name in thicknesses:
+                if text := thickness_attribute.no_far_side_text(_object(name).data):
+                    self.report({"WARNING"}, f"{name}: {text}")
+        except (SkinError, ValueError) as error:
+            self.report({"ERROR"}, str(error))
+        # Also after an error: some meshes may have changed, and Undo reverts that.
+        return {"FINISHED"}
+
+
+def _object(name: str) -> bpy.types.Object:
+    """Undo invalidates all references, so objects are looked up by name."""
+    for obj in bpy.data.objects:
+        if obj.name_full == name:
+            return obj
+    raise SkinError(f"'{name}' was deleted or renamed while it was measured")
+
+
+def _show_progress(context: bpy.types.Context) -> None:
+    measuring = _MeasuringOperator.current
+    names = ", ".join(measuring.geometries)
+    if measuring.canceled:
+        text = f"Canceling: the thickness of {names} is kept"
+    elif measuring.running:
+        text = f"Measuring the thickness of {names}: {measuring.done:.0%}      Esc: cancel"
+    else:
+        text = f"The thickness of {names} is measured: return to Object Mode to apply it      Esc: cancel"
+    context.workspace.status_text_set(text)
+    redraw_panels(context)
+
+
+def redraw_panels(context: bpy.types.Context) -> None:
+    """Redraws the panels."""
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type in ("VIEW_3D", "PROPERTIES"):
+                area.tag_redraw()
+
+
+def stop_measuring() -> None:
+    """Stops a running measurement, as when Blender quits or the add-on is disabled."""
+    if _MeasuringOperator.current is not None:
+        _MeasuringOperator.current.cancel()
+
+
+def measuring_now() -> Measuring | None:
+    """The running measurement, or None."""
+    return _MeasuringOperator.current
+
+
+def _may_measure(cls: type, context: bpy.types.Context) -> bool:
+    if _MeasuringOperator.current is not None:
+        cls.poll_message_set("Thickness is being measured, Esc cancels")
+    elif context.mode != "OBJECT":
+        cls.poll_message_set("Only available in Object Mode")
+    else:
+        return True
+    return False
+
+
+class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  Blender's naming
+    """Turns the selected meshes into skins."""
+
+    bl_idname = "skinglow.make"
+    bl_label = "Make Skin Glow"
+    bl_description = (
+        "Measure the thickness of the selected meshes and let the light of the scene shine through their materials"
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not _may_measure(cls, context):
+            return False
+        if not selected_meshes(context):
+            cls.poll_message_set("Select a mesh to make glow")
+            return False
+        return True
+
+    def targets(self, context: bpy.types.Context) -> list[bpy.types.Object]:
+        return selected_meshes(context)
+
+    def to_measure(self, context: bpy.types.Context) -> dict[str, Geometry]:
+        found = {}
+        for obj in self.targets(context):
+            geometry = read_geometry(obj, context.scene)
+            if not thickness_attribute.is_measured(obj, geometry):
+                found[obj.name_full] = geometry
+        return found
+
+    def finish(self, _context: bpy.types.Context, names: list[str]) -> str:
+        states = [skin.make_skin(_object(name)) for name in names]
+        return "; ".join(f"{s.name}: {s.thickness_mm[0]:.2f} to {s.thickness_mm[1]:.2f} mm thick" for s in states)
+
+
+class SKINGLOW_OT_bake(_MeasuringOperator, bpy.types.Operator):  # noqa: N801
+    """Measures the thickness of skins again."""
+
+    bl_idname = "skinglow.bake"
+    bl_label = "Measure Thickness"
+    bl_description = (
+        "Measure the thickness of the selected skins again, for example after editing the mesh; Esc cancels"
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not _may_measure(cls, context):
+            return False
+        if not selected_skins(context):
+            cls.poll_message_set("Select a skin, or create one with Make Skin Glow")
+            return False
+        return True
+
+    def targets(self, context: bpy.types.Context) -> list[bpy.types.Object]:
+        return selected_skins(context)
+
+    def to_measure(self, context: bpy.types.Context) -> dict[str, Geometry]:
+        return {o.name_full: read_geometry(o, context.scene) for o in self.targets(context)}
+
+    def finish(self, _context: bpy.types.Context, names: list[str]) -> str:
+        for name in names:
+            _object(name).update_tag(refresh={"OBJECT"})
+        return "; ".join(f"{name}: {len(_object(name).data.vertices)} vertices measured" for name in names)
+
+
+class SKINGLOW_OT_cancel_measuring(bpy.types.Operator):  # noqa: N801
+    """Cancels a measurement from the panel."""
+
+    bl_idname = "skinglow.cancel_measuring"
+    bl_label = "Cancel Measuring Thickness"
+    bl_description = "Stop measuring without changing anything"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        return _MeasuringOperator.current is not None
+
+    def execute(self, _context: bpy.types.Context) -> set[str]:
+        # The operator that started the measurement checks this and ends.
+        _MeasuringOperator.current.canceled = True
+        return {"FINISHED"}
+
+
+CLASSES = (SKINGLOW_OT_make, SKINGLOW_OT_bake, SKINGLOW_OT_cancel_measuring)
+
+
+def register() -> None:
+    """Adds the operators."""
+    for each in CLASSES:
+        bpy.utils.register_class(each)
+
+
+def unregister() -> None:
+    """Removes the operators, also when Blender quits: no thread may run Python then."""
+    stop_measuring()
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)

@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operators of the panel; each supports undo and reports errors as messages."""
+
+from collections.abc import Callable
+
+import bpy
+from bpy.props import BoolProperty, StringProperty
+
+from ..commands import povray_export, skin
+from ..commands.health import health, repair
+from ..errors import SkinError
+from ..live.live_update import STATE
+from ..read.base_image import base_of_image
+from ..show.lut_image import skin_groups
+
+
+def selected_meshes(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """The selected meshes, the active one first."""
+    meshes = [obj for obj in context.selected_objects if obj.type == "MESH"]
+    return sorted(meshes, key=lambda obj: obj != context.object)
+
+
+def selected_skins(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """The selected skins; the active one if none is selected, as after selecting a light in the list."""
+    skins = [obj for obj in selected_meshes(context) if obj.skinglow.enabled]
+    active = context.object
+    if not skins and active is not None and active.type == "MESH" and active.skinglow.enabled:
+        return [active]
+    return skins
+
+
+class _SkinOperator:
+    """Reports the add-on's exceptions as Blender messages."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    def attempt(self, action: Callable[[], str]) -> set[str]:
+        try:
+            self.report({"INFO"}, action())
+        except (SkinError, ValueError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+class _SelectedSkins(_SkinOperator):
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if context.mode != "OBJECT":
+            cls.poll_message_set("Only available in Object Mode")
+        elif not selected_skins(context):
+            cls.poll_message_set("Select a skin, or create one with Make Skin Glow")
+        else:
+            return True
+        return False
+
+
+class SKINGLOW_OT_remove(_SelectedSkins, bpy.types.Operator):  # noqa: N801  Blender's naming
+    """Removes skins."""
+
+    bl_idname = "skinglow.remove"
+    bl_label = "Remove Skin Glow"
+    bl_description = "Remove Skinglow from the selected objects and restore their materials"
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        def remove() -> str:
+            names = [obj.name for obj in selected_skins(context)]
+            for obj in selected_skins(context):
+                skin.remove_skin(obj)
+            return f"Skin glow removed from {', '.join(names)}"
+
+        return self.attempt(remove)
+
+
+class SKINGLOW_OT_repair(_SelectedSkins, bpy.types.Operator):  # noqa: N801
+    """Repairs what the panel says is wrong."""
+
+    bl_idname = "skinglow.repair"
+    bl_label = "Repair Skin Glow"
+    bl_description = "Restore deleted nodes and images, and measure the thickness where it is out of date or not known"
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        def repair_all() -> str:
+            skins = selected_skins(context)
+            for obj in skins:
+                repair(obj)
+            left = [f"'{obj.name}': {fault}" for obj in skins for fault in health(obj)]
+            if left:
+                raise SkinError("; ".join(left))
+            return f"{', '.join(obj.name for obj in skins)}: all is well"
+
+        return self.attempt(repair_all)
+
+
+class SKINGLOW_OT_reset(_SelectedSkins, bpy.types.Operator):  # noqa: N801
+    """Resets skins to the defaults."""
+
+    bl_idname = "skinglow.reset"
+    bl_label = "Reset Skin Glow"
+    bl_description = "Reset the settings of the selected skins to their defaults; the thickness and its unit are kept"
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        def reset() -> str:
+            names = [obj.name for obj in selected_skins(context)]
+            for obj in selected_skins(context):
+                skin.reset_settings(obj)
+            return f"Reset to defaults: {', '.join(names)}"
+
+        return self.attempt(reset)
+
+
+class _AnySkin(_SkinOperator):
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        if skin_groups():
+            return True
+        cls.poll_message_set("This file has no skin yet: select a mesh and use Make Skin Glow")
+        return False
+
+
+class SKINGLOW_OT_update(_AnySkin, bpy.types.Operator):  # noqa: N801
+    """Recomputes all skins."""
+
+    bl_idname = "skinglow.update"
+    bl_label = "Update Skin Glow"
+    bl_description = "Recompute all skins, including those that are not live, and reload base lookup images"
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        def update() -> str:
+            base_of_image.cache_clear()
+            STATE.forget()
+            names = [rebuilt.skin for rebuilt in skin.update(context.evaluated_depsgraph_get())]
+            return f"Recomputed: {', '.join(names) or 'nothing, as this view layer has no skin'}"
+
+        return self.attempt(update)
+
+
+class SKINGLOW_OT_export_povray(_AnySkin, bpy.types.Operator):  # noqa: N801
+    """Writes POV-Ray scenes. No undo: it changes no Blender data."""
+
+    bl_idname = "skinglow.export_povray"
+    bl_label = "Export Skin Glow to POV-Ray"
+    bl_description = "Write the skins of the scene with camera, lights and lookup as POV-Ray 3.7 files to a folder"
+    bl_options = {"REGISTER"}
+
+    directory: StringProperty(subtype="DIR_PATH", description="Folder to write to")
+    filter_folder: BoolProperty(default=True, options={"HIDDEN"})
+    surface: BoolProperty(
+        name="Surface", default=True, description="Export the surface too; if disabled, only the transmitted light"
+    )
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        def export() -> str:
+            if not self.directory:
+                raise SkinError("No folder selected for the POV-Ray files")
+            graph = context.evaluated_depsgraph_get()
+            files = povray_export.export_povray(graph, bpy.path.abspath(self.directory), surface=self.surface)
+            return f"{len(files)} files written to {self.directory}"
+
+        return self.attempt(export)
+
+
+class SKINGLOW_OT_select_light(_SkinOperator, bpy.types.Operator):  # noqa: N801
+    """Selects the light of a row in the list; the skin stays active, so that the list stays visible."""
+
+    bl_idname = "skinglow.select_light"
+    bl_label = "Select Light"
+    bl_description = "Select this light in the scene and keep the skin as the active object"
+    bl_options = {"REGISTER", "UNDO", "INTERNAL"}
+
+    light: StringProperty(name="Light", description="Name of the light, or '<light> in <instancer>'")
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if context.mode == "OBJECT":
+            return True
+        cls.poll_message_set("Only available in Object Mode")
+        return False
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        def select() -> str:
+            objects = context.view_layer.objects
+            # An instance cannot be selected: its instancer can.
+            parts = self.light.split(" in ")
+            names = [self.light, *(" in ".join(parts[i:]) for i in range(1, len(parts)))]
+            light = next((objects[name] for name in names if name in objects), None)
+            if light is None:
+                raise SkinError(f"'{self.light}' is not in this view layer: enable its collection to select it")
+            if light.hide_select or not light.visible_get():
+                raise SkinError(f"'{light.name}' is hidden or not selectable: enable that in the Outliner first")
+            for obj in context.selected_objects:
+                obj.select_set(False)
+            light.select_set(True)
+            return f"{light.name} selected"
+
+        return self.attempt(select)
+
+
+CLASSES = (
+    SKINGLOW_OT_remove,
+    SKINGLOW_OT_repair,
+    SKINGLOW_OT_reset,
+    SKINGLOW_OT_update,
+    SKINGLOW_OT_export_povray,
+    SKINGLOW_OT_select_light,
+)
+
+
+def register() -> None:
+    """Adds the operators."""
+    for each in CLASSES:
+        bpy.utils.register_class(each)
+
+
+def unregister() -> None:
+    """Removes the operators."""
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)
