@@ -19,7 +19,7 @@ from .commands.skin import SkinState
 from .errors import SkinError
 from .live import handlers
 from .live.live_update import Rebuilt
-from .ui import light_list, lut_preview, measuring_operators, menus, operators, panel
+from .ui import light_list, lut_preview, main_panel, measuring_operators, menus, operators
 
 bl_info = {
     "name": "Skinglow",
@@ -60,7 +60,7 @@ _PARTS = (
     light_list,
     operators,
     measuring_operators,
-    panel,
+    main_panel,
     menus,
     handlers,
     batch,

@@ -12,8 +12,8 @@ import numpy as np
 
 from ..commands import light_listing, skin
 from ..errors import SkinError
-from ..live.live_update import STATE
 from ..read.scene_reading import read_scene, read_skin
+from ..session import SESSION
 from .inputs import skin_values
 
 
@@ -38,7 +38,7 @@ def watching(scene: bpy.types.Scene) -> Iterator[Shown]:
     def watch(rendered: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
         if rendered.name != scene.name or depsgraph.mode != "RENDER":
             return
-        if STATE.render_frame not in (None, rendered.frame_current_final):
+        if SESSION.render_frame not in (None, rendered.frame_current_final):
             return
         try:
             _record(shown, depsgraph)
@@ -58,7 +58,7 @@ def watching(scene: bpy.types.Scene) -> Iterator[Shown]:
 
 def _record(shown: Shown, depsgraph: bpy.types.Depsgraph) -> None:
     reading = read_scene(depsgraph)
-    shown.faults += STATE.faults.values()
+    shown.faults += SESSION.faults.values()
     shown.lights.update(light.object_name for light in reading.lights)
     for obj, _skin in reading.skins:
         shown.skins.append(_skin_entry(obj, depsgraph))

@@ -7,9 +7,9 @@ import bpy
 import numpy as np
 
 from ..errors import SkinError
-from ..live.live_update import STATE
 from ..read.measured_size import is_reshaped
 from ..read.mesh_reading import evaluated_mesh
+from ..session import SESSION
 from ..show.lut_image import SLOTS, images_of
 from ..show.skin_material import skin_node
 from ..thickness import thickness_attribute
@@ -42,7 +42,7 @@ def health(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None = None) 
     faults = quick_faults(obj)
     if not any(fault.remedy == MEASURE for fault in faults):
         faults += _thickness_faults(obj, depsgraph or bpy.context.evaluated_depsgraph_get())
-    told = STATE.faults.get(obj.name_full)
+    told = SESSION.faults.get(obj.name_full)
     if told is not None and not faults:
         faults.append(Fault(told, REPAIR))
     return faults

@@ -8,9 +8,10 @@ import bpy
 import numpy as np
 
 from ..errors import SkinError
-from ..live.live_update import STATE, Rebuilt, update_scene
+from ..live.live_update import Rebuilt, update_scene
 from ..read import measured_geometry, working_space, world_image
 from ..read.scene_reading import ROW_PROPERTY, read_skin
+from ..session import SESSION
 from ..show.lut_image import group_layout, image_pair, read_row, remove_images, shown_image
 from ..show.skin_group import clear
 from ..show.skin_material import add_to_materials, remove_from_material
@@ -68,7 +69,7 @@ def make_skin(obj: bpy.types.Object, thickness: Sequence[float] | None = None, *
         obj.update_tag(refresh={"OBJECT"})
         depsgraph = bpy.context.evaluated_depsgraph_get()
         rebuilt = tuple(r for r in update_scene(depsgraph) if r.skin == obj.name)
-        fault = STATE.faults.get(obj.name_full)
+        fault = SESSION.faults.get(obj.name_full)
         if fault is not None:
             raise SkinError(fault)
     return state_of(obj, depsgraph)._replace(rebuilt=rebuilt)
@@ -100,7 +101,7 @@ def state_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SkinState
 def table_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Table | None:
     """The table that a skin shows in depsgraphs of this mode; None before the first update."""
     group = obj.original.skinglow.group
-    atlas = STATE.atlases.get((group.name_full, depsgraph.mode)) if group is not None else None
+    atlas = SESSION.atlases.get((group.name_full, depsgraph.mode)) if group is not None else None
     return atlas.tables.get(obj.original.name_full) if atlas is not None else None
 
 
@@ -118,8 +119,8 @@ def update(depsgraph: bpy.types.Depsgraph) -> list[Rebuilt]:
     """
     world_image.forget_edited()
     rebuilt = update_scene(depsgraph)
-    if STATE.faults:
-        raise SkinError("; ".join(STATE.faults.values()))
+    if SESSION.faults:
+        raise SkinError("; ".join(SESSION.faults.values()))
     return rebuilt
 
 
@@ -135,7 +136,7 @@ def lut(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
     group = settings.group
     pair = image_pair(group, depsgraph.mode)
     image = shown_image(group)
-    atlas = STATE.atlases.get((group.name_full, depsgraph.mode))
+    atlas = SESSION.atlases.get((group.name_full, depsgraph.mode))
     if image not in pair and atlas is not None:
         image = pair[atlas.front]
     if image is None:
@@ -172,7 +173,7 @@ def remove_skin(obj: bpy.types.Object) -> None:
         if group.users == 0:
             clear(group)
             bpy.data.node_groups.remove(group)
-        STATE.forget()
+        SESSION.forget_tables()
     obj.update_tag(refresh={"OBJECT"})
 
 

@@ -10,11 +10,12 @@ from bpy.app.handlers import persistent
 
 from ..errors import SkinError
 from ..read import world_image
+from ..session import SESSION
 from ..show.group_following import follow_materials, remove_orphans
 from ..show.lut_image import GROUP_PROPERTY, images_of, skin_groups
 from ..table import occlusion
 from .file_upgrade import upgrade
-from .live_update import STATE, update_scene
+from .live_update import update_scene
 from .relevant_updates import changes_of
 
 
@@ -25,9 +26,9 @@ def guarded(function: Callable[..., None]) -> Callable[..., None]:
         try:
             function(first, second)
         except (SkinError, ValueError) as error:
-            STATE.faults["*"] = str(error)
+            SESSION.faults["*"] = str(error)
         except Exception as error:  # noqa: BLE001  nothing may interrupt the user's work
-            STATE.faults["*"] = f"Unexpected {type(error).__name__}: {error} (details in the system console)"
+            SESSION.faults["*"] = f"Unexpected {type(error).__name__}: {error} (details in the system console)"
             traceback.print_exc()
 
     handler.__name__ = function.__name__
@@ -36,7 +37,7 @@ def guarded(function: Callable[..., None]) -> Callable[..., None]:
 
 def has_skins() -> bool:
     """Whether the file has, or had since the last update, a skin; costs nothing in those that have none."""
-    return bool(STATE.owners or STATE.faults) or any(GROUP_PROPERTY in tree for tree in bpy.data.node_groups)
+    return bool(SESSION.owners or SESSION.faults) or any(GROUP_PROPERTY in tree for tree in bpy.data.node_groups)
 
 
 def is_shown(depsgraph: bpy.types.Depsgraph) -> bool:
@@ -72,7 +73,7 @@ def on_frame_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> N
     """Called after a frame change: in an animation render this is the only depsgraph with that frame's lights."""
     if not has_skins():
         return
-    if depsgraph.mode == "RENDER" and STATE.render_frame not in (None, scene.frame_current_final):
+    if depsgraph.mode == "RENDER" and SESSION.render_frame not in (None, scene.frame_current_final):
         # A motion blur step. The lookup is that of the frame itself; writing now would overwrite it before the renderer
         # has read it.
         return
@@ -83,21 +84,21 @@ def on_frame_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> N
 @guarded
 def on_render_init(_scene: bpy.types.Scene, _unused: None) -> None:
     """Called when a render begins: the viewport's images are not updated until it ends."""
-    STATE.rendering = True
+    SESSION.rendering = True
 
 
 @guarded
 def on_render_pre(scene: bpy.types.Scene, _unused: None) -> None:
     """Called when the render of a frame begins."""
-    STATE.rendering = True
-    STATE.render_frame = scene.frame_current_final
+    SESSION.rendering = True
+    SESSION.render_frame = scene.frame_current_final
 
 
 @guarded
 def on_render_end(_scene: bpy.types.Scene, _unused: None) -> None:
     """Called when a render ends or is canceled: restores the viewport's lookups."""
-    STATE.rendering = False
-    STATE.render_frame = None
+    SESSION.rendering = False
+    SESSION.render_frame = None
     occlusion.forget("RENDER")
     show_viewport()
 
@@ -108,7 +109,7 @@ def on_undo(_first: Any, _second: Any) -> None:  # noqa: ANN401
 
     The skins are tagged, so Blender evaluates and reports them. Evaluating here, before Blender does, can crash it.
     """
-    forget_all()
+    SESSION.forget()
     for obj in bpy.data.objects:
         if obj.skinglow.enabled:
             obj.update_tag(refresh={"OBJECT"})
@@ -127,34 +128,25 @@ def update_windows_soon() -> None:
 
 def update_windows() -> None:
     """Updates the scenes in the windows."""
-    if STATE.rendering or not has_skins():
+    if SESSION.rendering or not has_skins():
         return
     try:
         for window in bpy.context.window_manager.windows:
             if window.view_layer.depsgraph is not None:
                 update_scene(window.view_layer.depsgraph, only_live=True)
     except (SkinError, ValueError) as error:
-        STATE.faults["*"] = str(error)
+        SESSION.faults["*"] = str(error)
 
 
 @guarded
 def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
     """Called after loading a file. Evaluations during loading are not reported, so everything is updated here."""
-    forget_all()
+    SESSION.forget()
     follow_windows()  # loading clears subscriptions
     upgrade()
     if bpy.context.view_layer is not None and any(obj.skinglow.enabled for obj in bpy.data.objects):
         update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
     remove_orphans()
-
-
-def forget_all() -> None:
-    """Resets to the state before the first update."""
-    STATE.rendering = False
-    STATE.render_frame = None
-    STATE.forget()
-    world_image.forget()
-    occlusion.forget()
 
 
 @guarded
@@ -168,7 +160,7 @@ def on_save(_first: Any, _second: Any) -> None:  # noqa: ANN401
 def show_viewport() -> None:
     """Restores the viewport's images in the nodes."""
     for group in skin_groups():
-        atlas = STATE.atlases.get((group.name_full, "VIEWPORT"))
+        atlas = SESSION.atlases.get((group.name_full, "VIEWPORT"))
         if atlas is not None:
             atlas.show(group)
 
@@ -216,4 +208,4 @@ def unregister() -> None:
     bpy.msgbus.clear_by_owner(SUBSCRIPTIONS)
     if bpy.app.timers.is_registered(update_windows):
         bpy.app.timers.unregister(update_windows)
-    STATE.forget()
+    SESSION.forget_tables()

@@ -10,6 +10,7 @@ from ..errors import SkinError
 from ..read import working_space
 from ..read.scene_lights import FIELDS
 from ..read.scene_reading import ROW_PROPERTY, SceneReading, Skin, read_scene
+from ..session import SESSION
 from ..show.lut_image import Atlas, ensure_images, has_room
 from ..show.skin_group import build_plain
 from ..show.surface_group import build_surface
@@ -33,41 +34,15 @@ class Rebuilt(NamedTuple):
         return why_changed(self.before, self.after)
 
 
-class LiveState:
-    """State kept between updates. Undo and load invalidate it: they replace all data."""
-
-    def __init__(self) -> None:
-        self.atlases: dict[tuple[str, str], Atlas] = {}
-        self.faults: dict[str, str] = {}
-        #: (node group, row) to the name and library of the object that owns the row.
-        self.owners: dict[tuple[str, int], tuple[str, str | None]] = {}
-        self.rendering = False
-        self.render_frame: float | None = None
-        #: What the last update read, and of which depsgraph; None if undo or load made its objects invalid.
-        self.reading: tuple[int, SceneReading] | None = None
-        #: Number of updates, one per edit: anything derived at a lower number may be out of date.
-        self.updates = 0
-
-    def forget(self) -> None:
-        """Drops all tables, so that the next update recomputes and shows every one."""
-        self.atlases.clear()
-        self.owners.clear()
-        self.faults.clear()
-        self.reading = None
-
-
-STATE = LiveState()
-
-
 def update_scene(depsgraph: bpy.types.Depsgraph, only_live: bool = False) -> list[Rebuilt]:
-    """Recomputes and shows what changed in this depsgraph. Faults go to STATE.faults and do not affect other skins.
+    """Recomputes and shows what changed in this depsgraph. Faults go to SESSION.faults and do not affect other skins.
 
     A skin with a fault keeps its last good table. With only_live, skins that are not live keep the table they show.
     """
-    STATE.updates += 1
+    SESSION.updates += 1
     faults: dict[str, str] = {}
     reading = with_visible_fractions(read_scene(depsgraph), depsgraph, faults)
-    STATE.reading = (depsgraph.as_pointer(), reading)
+    SESSION.reading = (depsgraph.as_pointer(), reading)
     rebuilt: list[Rebuilt] = []
     groups: dict[str, tuple[bpy.types.NodeTree, list[tuple[bpy.types.Object, Skin]]]] = {}
     for obj, skin in reading.skins:
@@ -82,7 +57,7 @@ def update_scene(depsgraph: bpy.types.Depsgraph, only_live: bool = False) -> lis
         except SkinError as error:
             for _obj, skin in members:
                 faults[skin.key] = f"{skin.name}: {error}"
-    STATE.faults = faults
+    SESSION.faults = faults
     return rebuilt
 
 
@@ -98,10 +73,10 @@ def _update_group(
     _make_room(group, max(skin.base[1] for _obj, skin in members), 1 + max(o.skinglow.row for o, _skin in members))
     atlas = _atlas(group, mode)
     before = {key: (signature, atlas.rows.get(key)) for key, signature in atlas.signatures.items()}
-    other = STATE.atlases.get((group.name_full, "RENDER" if mode == "VIEWPORT" else "VIEWPORT"))
+    other = SESSION.atlases.get((group.name_full, "RENDER" if mode == "VIEWPORT" else "VIEWPORT"))
     kept = _keep(atlas, other, members) if only_live else set()
     # Nodes cannot be added while rendering, nor to a group from a library.
-    fixed = STATE.rendering or group.library is not None
+    fixed = SESSION.rendering or group.library is not None
     _compute(atlas, members, kept, reading, faults, fixed)
     if _fit_layout(group, atlas, members):
         old, atlas = atlas, _atlas(group, mode)
@@ -121,7 +96,7 @@ def _update_group(
         _set_row_property(obj, skin, atlas)
     if atlas.is_dirty:
         atlas.write(group)
-    if mode == "RENDER" or not STATE.rendering:
+    if mode == "RENDER" or not SESSION.rendering:
         atlas.show(group)
     return rebuilt
 
@@ -187,9 +162,9 @@ def _fit_layout(group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy
             wanted = None
         elif wanted.entries < entries:
             wanted = wanted._replace(entries=entries)
-    if wanted == atlas.layout or group.library is not None or (wanted is None and STATE.rendering):
+    if wanted == atlas.layout or group.library is not None or (wanted is None and SESSION.rendering):
         return False
-    if STATE.rendering:
+    if SESSION.rendering:
         raise SkinError(
             "its material has too few nodes for these lights, and nodes cannot be added while rendering: "
             "update before rendering"
@@ -210,9 +185,9 @@ def _has_surface_weights(group: bpy.types.NodeTree) -> bool:
 
 def _atlas(group: bpy.types.NodeTree, mode: str) -> Atlas:
     key = (group.name_full, mode)
-    atlas = STATE.atlases.get(key)
+    atlas = SESSION.atlases.get(key)
     if atlas is None or not atlas.fits(group):
-        atlas = STATE.atlases[key] = Atlas(group, mode)
+        atlas = SESSION.atlases[key] = Atlas(group, mode)
     return atlas
 
 
@@ -224,12 +199,12 @@ def _separate_rows(group: bpy.types.NodeTree, members: list[tuple[bpy.types.Obje
         if settings.row < 0 or _other_owner(group, settings.row, me):
             used = {o.skinglow.row for o in bpy.data.objects if o.skinglow.group == group}
             settings.row = next(i for i in range(len(used) + 1) if i not in used)
-        STATE.owners[group.name_full, settings.row] = me
+        SESSION.owners[group.name_full, settings.row] = me
 
 
 def _other_owner(group: bpy.types.NodeTree, row: int, me: tuple[str, str | None]) -> bool:
     """Whether a row belongs to another object that still exists, in any scene, and still uses it."""
-    owner = STATE.owners.get((group.name_full, row))
+    owner = SESSION.owners.get((group.name_full, row))
     if owner is None or owner == me:
         return False
     other = bpy.data.objects.get(owner)
@@ -239,7 +214,7 @@ def _other_owner(group: bpy.types.NodeTree, row: int, me: tuple[str, str | None]
 def _make_room(group: bpy.types.NodeTree, width: int, rows: int) -> None:
     if has_room(group, width, rows):
         return
-    if STATE.rendering:
+    if SESSION.rendering:
         raise SkinError("its images are too small and cannot be enlarged while rendering: update before rendering")
     ensure_images(group, width, rows)
 

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A Blender image as the base lookup: brightness by thickness, thin skin on the left."""
 
-from functools import lru_cache
 from typing import Any
 
 import bpy
 import numpy as np
 
 from ..errors import SkinError, core
+from ..session import SESSION
 from .image_pixels import linear_pixels
 
 #: Rec.709 luminance (ITU-R BT.709-6, item 3.2 of part 1).
@@ -19,9 +19,10 @@ def brightness(colors: np.ndarray) -> np.ndarray:
     return np.maximum(colors @ LUMINANCE, 0.0)
 
 
-@lru_cache(maxsize=16)
 def base_of_image(key: tuple) -> Any:  # noqa: ANN401  a skinglow.BaseLut
-    """Mean linear brightness of each column. Call `base_of_image.cache_clear()` after an image was painted."""
+    """Mean linear brightness of each column. Read once: forget SESSION.base_images after an image was painted."""
+    if key in SESSION.base_images:
+        return SESSION.base_images[key]
     _kind, _width, max_thickness_mm, name, _colorspace = key
     image = bpy.data.images.get(name)
     if image is None:
@@ -33,4 +34,6 @@ def base_of_image(key: tuple) -> Any:  # noqa: ANN401  a skinglow.BaseLut
     except SkinError as error:
         raise SkinError(f"The base lookup {error}") from error
     colors = np.repeat(pixels[:, :, :1], 3, axis=2) if pixels.shape[2] < 3 else pixels[:, :, :3]
-    return core().BaseLut(brightness(colors.astype(np.float64).mean(axis=0)), max_thickness_mm)
+    base = core().BaseLut(brightness(colors.astype(np.float64).mean(axis=0)), max_thickness_mm)
+    SESSION.base_images[key] = base
+    return base

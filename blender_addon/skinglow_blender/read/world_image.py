@@ -7,14 +7,12 @@ from typing import Any
 import bpy
 
 from ..errors import SkinError, core
+from ..session import SESSION
 from .image_pixels import linear_pixels
 
 #: Blender does not report painted pixels: an image that was edited and not saved is reread at each update up to this
 #: size (some 10 ms); larger ones only after `forget_edited`.
 MAX_EDITED_PIXELS = 1 << 20
-
-#: (name with library, projection) to (source of the pixels, skinglow.Environment or the error).
-_read: dict[tuple[str, str], tuple[tuple, Any]] = {}
 
 
 def environment_of_image(name: str, projection: str) -> Any:  # noqa: ANN401  a skinglow.Environment
@@ -23,20 +21,20 @@ def environment_of_image(name: str, projection: str) -> Any:  # noqa: ANN401  a 
     if image is None:
         raise SkinError(f"its image '{name}' no longer exists")
     source = _source_of(image)
-    known = _read.get((name, projection))
+    known = SESSION.world_images.get((name, projection))
     edited = image.is_dirty and image.size[0] * image.size[1] <= MAX_EDITED_PIXELS
     # Reloading leaves an image without data until it is read; not every version reports it.
     if known is None or known[0] != source or edited or not image.has_data:
-        known = _read[name, projection] = (source, _compute(image, projection))
+        known = SESSION.world_images[name, projection] = (source, _compute(image, projection))
     if isinstance(known[1], SkinError):
         raise known[1]
     return known[1]
 
 
-def forget(name: str | None = None) -> None:
-    """Rereads an image at the next update; without a name, all images."""
-    for key in [key for key in _read if name in (None, key[0])]:
-        del _read[key]
+def forget(name: str) -> None:
+    """Rereads an image at the next update."""
+    for key in [key for key in SESSION.world_images if key[0] == name]:
+        del SESSION.world_images[key]
 
 
 def forget_edited() -> None:
@@ -48,7 +46,7 @@ def forget_edited() -> None:
 
 def is_known(name: str) -> bool:
     """Whether a world uses or used that image."""
-    return any(key[0] == name for key in _read)
+    return any(key[0] == name for key in SESSION.world_images)
 
 
 def _source_of(image: bpy.types.Image) -> tuple:

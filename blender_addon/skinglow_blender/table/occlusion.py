@@ -10,6 +10,7 @@ from ..errors import SkinError, core
 from ..read.mesh_reading import MeshCache
 from ..read.scene_lights import SceneLight, make_light
 from ..read.scene_reading import SceneReading, Skin
+from ..session import SESSION
 from .far_side import FarSide, far_side_of
 
 
@@ -30,7 +31,7 @@ class _Pass(NamedTuple):
     own: dict[str, int]  #: index of each such skin's own body, if it casts shadows
 
 
-class _Occluders:
+class Occluders:
     """The occluders of one depsgraph mode, rebuilt only when one of them changes."""
 
     def __init__(self) -> None:
@@ -53,14 +54,10 @@ class _Occluders:
         self.bodies = found.bodies
 
 
-#: By depsgraph mode: viewport and render show different objects.
-_by_mode: dict[str, _Occluders] = {}
-
-
 def forget(mode: str | None = None) -> None:
     """Frees the occluders of a depsgraph mode, or of both."""
-    for each in [mode] if mode is not None else list(_by_mode):
-        _by_mode.pop(each, None)
+    for each in [mode] if mode is not None else list(SESSION.occluders):
+        SESSION.occluders.pop(each, None)
 
 
 def with_visible_fractions(
@@ -98,7 +95,7 @@ def _visible_fractions(
     """For each skin one fraction per light, 0 to 1."""
     if not hasattr(core(), "Occluders"):
         raise SkinError("this build of the core was made without Embree and traces no rays; turn Occlusion off")
-    occluders = _by_mode.setdefault(depsgraph.mode, _Occluders())
+    occluders = SESSION.occluders.setdefault(depsgraph.mode, Occluders())
     found = _read_pass(depsgraph, skins, occluders.meshes)
     occluders.update(found)
     fractions = {}

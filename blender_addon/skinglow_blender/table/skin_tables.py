@@ -12,6 +12,7 @@ from ..read.base_image import base_of_image, brightness
 from ..read.scene_lights import SceneLight, make_light
 from ..read.scene_reading import Skin
 from ..read.scene_world import World
+from ..session import SESSION
 from ..skin_settings import TISSUE_SLIDERS
 from .lut_layout import MAX_TERMS, Layout, layout_of
 
@@ -61,7 +62,7 @@ def signature_of(skin: Skin, lights: list[SceneLight], world: World | None) -> S
     """The inputs that a skin's table depends on in its mode, and no others."""
     if skin.mode == "EXISTING":
         return Signature(skin.mode, skin.base)
-    signatures = _prepared.of(skin, lights).signatures
+    signatures = _prepared().of(skin, lights).signatures
     if skin.mode == "PAPER":
         return Signature(skin.mode, skin.base, skin.blood_weight, skin.attenuation, skin.point, lights=signatures)
     world_light = world_irradiance(world)
@@ -90,7 +91,7 @@ class SkinLights(NamedTuple):
         return cls(lights, tuple(light.signature for light in lights))
 
 
-class _PreparedLights:
+class PreparedLights:
     """Caches the lights of one scene reading and the core's lights made from them: most skins share the same ones."""
 
     def __init__(self) -> None:
@@ -119,17 +120,20 @@ class _PreparedLights:
         return self.core_lights
 
 
-_prepared = _PreparedLights()
+def _prepared() -> PreparedLights:
+    if SESSION.prepared_lights is None:
+        SESSION.prepared_lights = PreparedLights()
+    return SESSION.prepared_lights
 
 
 def lights_of(skin: Skin, lights: list[SceneLight]) -> list[SceneLight]:
     """The lights that illuminate this skin, each reduced to its visible fraction."""
-    return _prepared.of(skin, lights).lights
+    return _prepared().of(skin, lights).lights
 
 
 def core_lights_of(skin: Skin, lights: list[SceneLight]) -> list[Any]:
     """The same as the core's lights; raises ValueError, naming light and field, if the core rejects one."""
-    return _prepared.core_lights_of(skin, lights)
+    return _prepared().core_lights_of(skin, lights)
 
 
 def world_irradiance(world: World | None) -> tuple[float, float, float]:

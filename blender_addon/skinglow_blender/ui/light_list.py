@@ -13,15 +13,11 @@ from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty, In
 
 from ..commands.light_listing import light_report
 from ..errors import SkinError
-from ..live.live_update import STATE
 from ..read.scene_reading import SceneReading
+from ..session import SESSION
 
 #: Seconds between a request and the update: the update interval while a light is dragged.
 DELAY = 0.05
-
-#: By skin: (STATE.updates, scene, view layer) of the filled list, and of the lists requested by drawing.
-_filled: dict[str, tuple[int, str, str]] = {}
-_requested: dict[str, tuple[int, str, str]] = {}
 
 
 class LightRow(bpy.types.PropertyGroup):
@@ -60,9 +56,9 @@ class LightList(bpy.types.PropertyGroup):
 def list_of(obj: bpy.types.Object, context: bpy.types.Context) -> LightList | None:
     """A skin's list as last filled, or None; requests an update if it is out of date. For draw()."""
     key = obj.name_full
-    stamp = (STATE.updates, context.scene.name, context.view_layer.name)
-    if _filled.get(key) != stamp:
-        _requested[key] = stamp
+    stamp = (SESSION.updates, context.scene.name, context.view_layer.name)
+    if SESSION.filled_lists.get(key) != stamp:
+        SESSION.requested_lists[key] = stamp
         # There are no timers in background mode.
         if not bpy.app.background and not bpy.app.timers.is_registered(_fill_soon):
             bpy.app.timers.register(_fill_soon, first_interval=DELAY)
@@ -73,8 +69,8 @@ def fill_requested() -> int:
     """Fills the requested lists; returns their number."""
     lists = bpy.context.window_manager.skinglow_lists
     filled = 0
-    while _requested:
-        key, stamp = _requested.popitem()
+    while SESSION.requested_lists:
+        key, stamp = SESSION.requested_lists.popitem()
         obj = next((o for o in bpy.data.objects if o.name_full == key), None)
         layer = _view_layer(*stamp[1:])
         if obj is None or layer is None or layer.depsgraph is None:
@@ -84,20 +80,20 @@ def fill_requested() -> int:
         except (SkinError, ValueError):
             continue  # the panel shows the fault of the update
         _fill(lists.get(key) or _new_list(lists, key), rows)
-        _filled[key] = stamp
+        SESSION.filled_lists[key] = stamp
         filled += 1
     return filled
 
 
 def _last_reading(depsgraph: bpy.types.Depsgraph, updates: int) -> SceneReading | None:
     """What the update read for which the list was requested, if it was of that depsgraph: nothing changed since."""
-    if STATE.reading is None or STATE.updates != updates or STATE.reading[0] != depsgraph.as_pointer():
+    if SESSION.reading is None or SESSION.updates != updates or SESSION.reading[0] != depsgraph.as_pointer():
         return None
-    return STATE.reading[1]
+    return SESSION.reading[1]
 
 
 def _fill_soon() -> None:
-    if STATE.rendering or not fill_requested():
+    if SESSION.rendering or not fill_requested():
         return
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
@@ -114,7 +110,7 @@ def _new_list(lists: bpy.types.bpy_prop_collection, key: str) -> LightList:
     there = {obj.name_full for obj in bpy.data.objects}
     for i in reversed(range(len(lists))):
         if lists[i].name not in there:
-            _filled.pop(lists[i].name, None)
+            SESSION.filled_lists.pop(lists[i].name, None)
             lists.remove(i)
     made = lists.add()
     made.name = key
@@ -157,5 +153,5 @@ def unregister() -> None:
     del bpy.types.WindowManager.skinglow_lists
     bpy.utils.unregister_class(LightList)
     bpy.utils.unregister_class(LightRow)
-    _filled.clear()
-    _requested.clear()
+    SESSION.filled_lists.clear()
+    SESSION.requested_lists.clear()

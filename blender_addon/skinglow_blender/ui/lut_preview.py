@@ -8,23 +8,22 @@ from mathutils import Color
 
 from ..commands.skin import lut
 from ..errors import SkinError
-from ..live.live_update import STATE
+from ..session import SESSION
 
 #: Blender draws all icons as squares.
 WIDTH, HEIGHT = 64, 64
 _previews: bpy.utils.previews.ImagePreviewCollection | None = None
-_shown: dict[str, tuple] = {}
 
 
 def icon_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> int:
     """The icon ID of a skin's lookup, redrawn only when that changed; 0 if there is none."""
     group = obj.skinglow.group
-    atlas = STATE.atlases.get((group.name_full, depsgraph.mode)) if group is not None else None
+    atlas = SESSION.atlases.get((group.name_full, depsgraph.mode)) if group is not None else None
     signature = atlas.signatures.get(obj.name_full) if atlas is not None else None
     if signature is None or _previews is None:
         return 0
     preview = _previews.get(obj.name_full) or _previews.new(obj.name_full)
-    if _shown.get(obj.name_full) != signature:
+    if SESSION.thumbnails.get(obj.name_full) != signature:
         try:
             table = lut(obj, depsgraph)
         except SkinError:
@@ -37,7 +36,7 @@ def icon_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> int:
         ]
         preview.image_size = (WIDTH, HEIGHT)
         preview.image_pixels_float.foreach_set(pixels.ravel())
-        _shown[obj.name_full] = signature
+        SESSION.thumbnails[obj.name_full] = signature
     return preview.icon_id
 
 
@@ -53,4 +52,4 @@ def unregister() -> None:
     if _previews is not None:
         bpy.utils.previews.remove(_previews)
     _previews = None
-    _shown.clear()
+    SESSION.thumbnails.clear()

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators that measure thickness: in the background of a window, synchronously from scripts."""
 
-from typing import ClassVar
-
 import bpy
 
 from ..commands import skin
 from ..errors import SkinError
 from ..read.measured_geometry import Geometry, read_geometry
+from ..session import SESSION
 from ..thickness import thickness_attribute
 from ..thickness.measuring import Measuring
 from .operators import selected_meshes, selected_skins
@@ -20,8 +19,6 @@ class _MeasuringOperator:
     """Measures first and changes the file only when everything is measured: canceling loses nothing."""
 
     bl_options = {"REGISTER", "UNDO"}
-    #: The running measurement, for the panel's progress bar and for the poll of other operators.
-    current: ClassVar[Measuring | None] = None
 
     def to_measure(self, context: bpy.types.Context) -> dict[str, Geometry]:
         """The geometry to measure; raises SkinError for a mesh that cannot be measured."""
@@ -53,7 +50,7 @@ class _MeasuringOperator:
             geometries = self.to_measure(context)
             if not geometries:
                 return self._store(context, {}, {})
-            _MeasuringOperator.current = Measuring(geometries)
+            SESSION.measuring = Measuring(geometries)
         except (SkinError, ValueError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -63,7 +60,7 @@ class _MeasuringOperator:
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        measuring = _MeasuringOperator.current
+        measuring = SESSION.measuring
         if event.type == "ESC" and event.value == "PRESS":
             measuring.canceled = True
             return {"RUNNING_MODAL"}
@@ -91,7 +88,7 @@ class _MeasuringOperator:
         self._end(context)
 
     def _end(self, context: bpy.types.Context) -> None:
-        _MeasuringOperator.current = None
+        SESSION.measuring = None
         context.window_manager.event_timer_remove(self._timer)
         if context.workspace is not None:
             context.workspace.status_text_set(None)
@@ -120,7 +117,7 @@ def _object(name: str) -> bpy.types.Object:
 
 
 def _show_progress(context: bpy.types.Context) -> None:
-    measuring = _MeasuringOperator.current
+    measuring = SESSION.measuring
     names = ", ".join(measuring.geometries)
     if measuring.canceled:
         text = f"Canceling: the thickness of {names} is kept"
@@ -142,17 +139,12 @@ def redraw_panels(context: bpy.types.Context) -> None:
 
 def stop_measuring() -> None:
     """Stops a running measurement, as when Blender quits or the add-on is disabled."""
-    if _MeasuringOperator.current is not None:
-        _MeasuringOperator.current.cancel()
-
-
-def measuring_now() -> Measuring | None:
-    """The running measurement, or None."""
-    return _MeasuringOperator.current
+    if SESSION.measuring is not None:
+        SESSION.measuring.cancel()
 
 
 def _may_measure(cls: type, context: bpy.types.Context) -> bool:
-    if _MeasuringOperator.current is not None:
+    if SESSION.measuring is not None:
         cls.poll_message_set("Thickness is being measured, Esc cancels")
     elif context.mode != "OBJECT":
         cls.poll_message_set("Only available in Object Mode")
@@ -235,11 +227,11 @@ class SKINGLOW_OT_cancel_measuring(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, _context: bpy.types.Context) -> bool:
-        return _MeasuringOperator.current is not None
+        return SESSION.measuring is not None
 
     def execute(self, _context: bpy.types.Context) -> set[str]:
         # The operator that started the measurement checks this and ends.
-        _MeasuringOperator.current.canceled = True
+        SESSION.measuring.canceled = True
         return {"FINISHED"}
 
 

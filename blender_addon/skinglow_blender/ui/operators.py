@@ -9,8 +9,7 @@ from bpy.props import BoolProperty, StringProperty
 from ..commands import povray_export, skin
 from ..commands.health import health, repair
 from ..errors import SkinError
-from ..live.live_update import STATE
-from ..read.base_image import base_of_image
+from ..session import SESSION
 from ..show.lut_image import skin_groups
 
 
@@ -127,8 +126,7 @@ class SKINGLOW_OT_update(_AnySkin, bpy.types.Operator):  # noqa: N801
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         def update() -> str:
-            base_of_image.cache_clear()
-            STATE.forget()
+            SESSION.forget_tables()
             names = [rebuilt.skin for rebuilt in skin.update(context.evaluated_depsgraph_get())]
             return f"Recomputed: {', '.join(names) or 'nothing, as this view layer has no skin'}"
 

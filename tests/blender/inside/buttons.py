@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import skinglow_blender as sb
-from skinglow_blender.live import live_update
+from skinglow_blender.session import SESSION
 from skinglow_blender.ui import menus
 
 from inside.scenes import add_light, assert_fresh, camera_above, depsgraph, patch
@@ -88,7 +88,7 @@ def check_ten_thousand_updates_leave_nothing(_work):
         bpy.context.view_layer.update()
     assert_fresh(obj)
     assert {name: len(getattr(bpy.data, name)) for name in names} == before
-    assert len(live_update.STATE.atlases) == 1 and len(live_update.STATE.owners) == 1
+    assert len(SESSION.atlases) == 1 and len(SESSION.owners) == 1
     assert sb.update(graph) == []
 
 

@@ -5,8 +5,8 @@ import math
 import bpy
 import numpy as np
 import skinglow_blender as sb
-from skinglow_blender.live.live_update import STATE
 from skinglow_blender.read.scene_reading import ROW_PROPERTY
+from skinglow_blender.session import SESSION
 from skinglow_blender.skin_settings import SETTING_NAMES, SkinSettings
 
 from inside.bad_input import refused
@@ -80,7 +80,7 @@ def check_deleted_row_property_comes_back(_work):
     obj.update_tag()
     key.data.energy = 20.0
     graph = depsgraph()
-    assert tuple(obj[ROW_PROPERTY]) == before and not STATE.faults
+    assert tuple(obj[ROW_PROPERTY]) == before and not SESSION.faults
     assert sb.lut(obj, graph).max() > 0.0
 
 

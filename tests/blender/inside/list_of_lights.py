@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import skinglow_blender as sb
-from skinglow_blender.live import live_update
+from skinglow_blender.session import SESSION
 from skinglow_blender.ui import light_list
 
 from inside.scenes import add_light, depsgraph, patch
@@ -56,14 +56,14 @@ def check_redraws_compute_nothing(_work):
     try:
         redraw(obj)
         assert len(calls) == 1
-        looks = live_update.STATE.updates
+        looks = SESSION.updates
         depsgraph()
         for _ in range(100):
             assert redraw(obj)[1] == 0
         assert len(calls) == 1
         # Filling a list is no edit: it would call for the next filling without end.
         depsgraph()
-        assert live_update.STATE.updates == looks
+        assert SESSION.updates == looks
         bpy.data.objects["Key"].location.z = 2.0
         depsgraph()
         lights, filled = redraw(obj)

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 import bpy
 import skinglow_blender as sb
-from skinglow_blender.ui.skin_panel import draw_thickness
+from skinglow_blender.ui.thickness_panel import draw_thickness
 
 from inside.measured_as_shown import plate
 

@@ -7,8 +7,7 @@ import numpy as np
 import skinglow as sg
 import skinglow_blender as sb
 from skinglow_blender.live import handlers
-from skinglow_blender.live.live_update import STATE
-from skinglow_blender.table import occlusion
+from skinglow_blender.session import SESSION
 
 from inside.light_units import rendered_irradiance, stage
 from inside.scenes import add_light, depsgraph, link, patch, render_settings
@@ -53,7 +52,7 @@ def check_off_by_default_and_costs_nothing(_work):
     free = brightness(obj)
     wall()
     assert brightness(obj) == free > 0.0
-    assert not occlusion._by_mode
+    assert not SESSION.occluders
     row = row_of(obj)
     assert (row["visible"], row["reason"], row["note"]) == (1.0, "", "")
 
@@ -93,7 +92,7 @@ def check_why_it_was_rebuilt(_work):
     depsgraph()
     between.location.x = 0.0
     handlers.unregister()
-    STATE.forget()
+    SESSION.forget_tables()
     sb.update(depsgraph())
     between.location.x = 5.0
     (rebuilt,) = sb.update(depsgraph())
@@ -109,13 +108,13 @@ def check_moving_a_light_only_traces(_work):
     switch()
     between = wall()
     assert brightness(obj) == 0.0
-    scene = occlusion._by_mode["VIEWPORT"].scene
+    scene = SESSION.occluders["VIEWPORT"].scene
     key.location = (0.0, 1.0, 0.0)
     assert brightness(obj) > 0.0
-    assert occlusion._by_mode["VIEWPORT"].scene is scene
+    assert SESSION.occluders["VIEWPORT"].scene is scene
     between.location.z = 0.6
     depsgraph()
-    assert occlusion._by_mode["VIEWPORT"].scene is not scene
+    assert SESSION.occluders["VIEWPORT"].scene is not scene
 
 
 def check_half_covered_area_light_is_about_half(_work):
@@ -211,7 +210,7 @@ def check_renders_have_occluders_of_their_own(work):
     assert set(found) == {1, 2, 3}, found
     assert found[2] == 0.0 < found[1], found
     np.testing.assert_allclose([found[1], found[3]], free, rtol=1e-6)
-    assert "RENDER" not in occlusion._by_mode
+    assert "RENDER" not in SESSION.occluders
     assert brightness(obj) == free
 
 

@@ -6,9 +6,9 @@ import bpy
 import numpy as np
 import skinglow_blender as sb
 from skinglow_blender.read import measured_geometry
+from skinglow_blender.session import SESSION
 from skinglow_blender.thickness import thickness_attribute
 from skinglow_blender.thickness.measuring import Measuring
-from skinglow_blender.ui import measuring_operators
 
 from inside.scenes import add_light, assert_fresh, depsgraph
 
@@ -234,7 +234,7 @@ def check_a_canceled_measuring_stops_soon(_work):
         assert "cancel" in str(error), str(error)
     else:
         raise AssertionError("a canceled measuring gave a result")
-    assert measuring_operators.measuring_now() is None
+    assert SESSION.measuring is None
 
 
 def check_a_mesh_edited_while_measured_keeps_what_it_had(_work):
@@ -254,11 +254,11 @@ def check_a_mesh_edited_while_measured_keeps_what_it_had(_work):
 
 def check_removing_the_add_on_stops_measuring(_work):
     geometry = measured_geometry.read_geometry(fine_ball(), bpy.context.scene)
-    measuring_operators._MeasuringOperator.current = measuring = Measuring({"Ball": geometry})
+    SESSION.measuring = measuring = Measuring({"Ball": geometry})
     refused("Thickness is being measured", bpy.ops.skinglow.make)
     sb.unregister()
     try:
         assert not measuring.running
     finally:
-        measuring_operators._MeasuringOperator.current = None
+        SESSION.measuring = None
         sb.register()

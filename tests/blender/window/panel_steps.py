@@ -15,9 +15,9 @@ import bpy  # noqa: E402
 import numpy as np  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
 from panel_scene import build_scene  # noqa: E402
-from skinglow_blender.live import live_update  # noqa: E402
+from skinglow_blender.session import SESSION  # noqa: E402
 from skinglow_blender.thickness import thickness_attribute  # noqa: E402
-from skinglow_blender.ui import light_list, measuring_operators, panel  # noqa: E402
+from skinglow_blender.ui import light_list, main_panel  # noqa: E402
 from window_steps import (  # noqa: E402
     area_of,
     click,
@@ -63,7 +63,7 @@ def redraw():
 
 
 def measuring():
-    return measuring_operators.measuring_now() is not None
+    return SESSION.measuring is not None
 
 
 def press_in_view(key, **with_keys):
@@ -114,12 +114,12 @@ def the_list():
     list_of, report = light_list.list_of, light_list.light_report
     light_list.list_of = lambda *given: drawn.append(1) or list_of(*given)
     light_list.light_report = lambda *given: computed.append(1) or report(*given)
-    looks = live_update.STATE.updates
+    looks = SESSION.updates
     for _ in range(10):
         redraw()
         yield 0.2
     light_list.list_of, light_list.light_report = list_of, report
-    tell("redraws, computed, looks", [len(drawn), len(computed), live_update.STATE.updates - looks])
+    tell("redraws, computed, looks", [len(drawn), len(computed), SESSION.updates - looks])
 
 
 def a_canceled_measuring():
@@ -128,7 +128,7 @@ def a_canceled_measuring():
     with in_view():
         bpy.ops.ed.undo_push(message="rays")
         tell("bake began as", list(bpy.ops.skinglow.bake("INVOKE_DEFAULT")))
-    yield from wait_for(lambda: measuring_operators.measuring_now().done > 0.0, PATIENCE, "progress")
+    yield from wait_for(lambda: SESSION.measuring.done > 0.0, PATIENCE, "progress")
     redraw()
     yield 0.5
     with in_view():
@@ -181,7 +181,7 @@ def every_part_of_the_panel():
         yield 0.5
         redraw()
         yield 0.5
-    tell("faults shown", list(live_update.STATE.faults.values()))
+    tell("faults shown", list(SESSION.faults.values()))
     settings.base = "BUILTIN"
     lists = bpy.context.window_manager.skinglow_lists
     for i in range(len(lists[0].rows)):
@@ -198,7 +198,7 @@ def every_part_of_the_panel():
 
 
 # Closed parts are not drawn.
-for part in (panel._Main, *panel.PARTS):
+for part in main_panel.CLASSES:
     part.bl_options = set()
 sb.register()
 run_steps(steps)

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The list of lights: the contribution of each to the skin, or why it has none."""
+"""The Lights panel: the contribution of each light to the skin, or why it has none."""
 
 import bpy
 
 from ..commands.skin import choice_of
 from . import light_list
+from .locations import InObjectProperties, InSidebar, SkinPanel
 from .wrapped_text import draw_wrapped
 
 MIN_ROWS = 4
@@ -43,6 +44,21 @@ class SKINGLOW_UL_lights(bpy.types.UIList):  # noqa: N801  Blender's naming
             return
         button = line.operator("skinglow.select_light", text="", icon="RESTRICT_SELECT_OFF", emboss=False)
         button.light = row.name
+
+
+class _Lights(SkinPanel):
+    bl_label = "Lights"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_lights(self.layout, context.object, context)
+
+
+class SKINGLOW_PT_sidebar_lights(_Lights, InSidebar, bpy.types.Panel):  # noqa: N801
+    """In the sidebar."""
+
+
+class SKINGLOW_PT_object_lights(_Lights, InObjectProperties, bpy.types.Panel):  # noqa: N801
+    """In the Object properties."""
 
 
 def _column(line: bpy.types.UILayout, units: float) -> bpy.types.UILayout:
@@ -109,4 +125,4 @@ def _draw_details(
         draw_wrapped(column, row.note, context, icon="ERROR")
 
 
-CLASSES = (SKINGLOW_UL_lights,)
+CLASSES = (SKINGLOW_UL_lights, SKINGLOW_PT_sidebar_lights, SKINGLOW_PT_object_lights)

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the add-on remembers about the open file, in one object that is cleared in one step."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .read.scene_reading import SceneReading
+    from .show.lut_image import Atlas
+    from .table.occlusion import Occluders
+    from .table.skin_tables import PreparedLights
+    from .thickness.measuring import Measuring
+
+
+class Session:
+    """State kept between updates. Undo and load invalidate it: they replace all data."""
+
+    def __init__(self) -> None:
+        #: (node group, depsgraph mode) to the contents of its images.
+        self.atlases: dict[tuple[str, str], Atlas] = {}
+        #: Skin to what is wrong with it, as text; '*' is what concerns no single skin.
+        self.faults: dict[str, str] = {}
+        #: (node group, row) to the name and library of the object that owns the row.
+        self.owners: dict[tuple[str, int], tuple[str, str | None]] = {}
+        self.rendering = False
+        self.render_frame: float | None = None
+        #: What the last update read, and of which depsgraph; None if undo or load made its objects invalid.
+        self.reading: tuple[int, SceneReading] | None = None
+        #: Number of updates, one per edit: anything derived at a lower number may be out of date.
+        self.updates = 0
+        #: The core's lights made from the last reading.
+        self.prepared_lights: PreparedLights | None = None
+        #: Depsgraph mode to what casts shadows there: viewport and render show different objects.
+        self.occluders: dict[str, Occluders] = {}
+        #: (name with library, projection) to (source of the pixels, skinglow.Environment or the error).
+        self.world_images: dict[tuple[str, str], tuple[tuple, Any]] = {}
+        #: Key of a base lookup that is an image to its skinglow.BaseLut.
+        self.base_images: dict[tuple, Any] = {}
+        #: Skin to the (updates, scene, view layer) of its filled list of lights, and of the list that was asked for.
+        self.filled_lists: dict[str, tuple[int, str, str]] = {}
+        self.requested_lists: dict[str, tuple[int, str, str]] = {}
+        #: Skin to the signature of the table in its thumbnail.
+        self.thumbnails: dict[str, tuple] = {}
+        #: The thickness measurement that runs in a thread.
+        self.measuring: Measuring | None = None
+
+    def forget_tables(self) -> None:
+        """Drops all tables, so that the next update recomputes and shows every one."""
+        self.atlases.clear()
+        self.owners.clear()
+        self.faults.clear()
+        self.base_images.clear()
+        self.reading = None
+
+    def forget(self) -> None:
+        """Resets to the state before the first update; a measurement goes on."""
+        measuring, updates = self.measuring, self.updates
+        self.__init__()
+        self.measuring, self.updates = measuring, updates
+
+
+SESSION = Session()

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel Skinglow: what is wrong, the lookup, and buttons; and the order of its subpanels."""
+
+import bpy
+
+from ..commands.health import quick_faults
+from ..read.measured_geometry import unit_mm
+from ..session import SESSION
+from . import lights_panel, look_panel, lookup_table_panel, thickness_panel, tools_panel
+from .locations import ObjectProperties, Sidebar, is_skin
+from .lut_preview import icon_of
+from .wrapped_text import draw_wrapped
+
+
+class _Main:
+    bl_label = "Skinglow"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        obj = context.object
+        for fault in SESSION.faults.values():
+            box = layout.box()
+            box.alert = True
+            draw_wrapped(box.column(align=True), fault, context, icon="ERROR")
+        if SESSION.measuring is not None:
+            _draw_progress(layout)
+        if not is_skin(obj):
+            _draw_start(layout, obj, context)
+            return
+        _draw_faults(layout, obj, context)
+        row = layout.row()
+        icon = icon_of(obj, context.view_layer.depsgraph)
+        if icon:
+            row.template_icon(icon_value=icon, scale=3.0)
+        column = row.column(align=True)
+        column.label(text=f"0 to {obj.skinglow.max_thickness_mm:.4g} mm")
+        column.prop(obj.skinglow, "live", toggle=True)
+        column.operator("skinglow.update", text="Update Now")
+
+
+def _draw_faults(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context) -> None:
+    faults = quick_faults(obj)
+    if not faults:
+        return
+    box = layout.box()
+    column = box.column(align=True)
+    for fault in faults:
+        draw_wrapped(column, fault.what, context, icon="ERROR")
+    box.operator("skinglow.repair", text="Repair", icon="FILE_REFRESH")
+
+
+def _draw_start(layout: bpy.types.UILayout, obj: bpy.types.Object | None, context: bpy.types.Context) -> None:
+    button = layout.row()
+    button.scale_y = 1.5
+    button.operator("skinglow.make", icon="LIGHT_SUN")
+    if obj is None or obj.type != "MESH":
+        draw_wrapped(layout.column(align=True), "Select a mesh to make glow", context, icon="INFO")
+        return
+    column = layout.column(align=True)
+    column.use_property_split, column.use_property_decorate = True, False
+    column.prop(obj.skinglow, "unit_mm", text="Unit (mm)")
+    across = max(obj.dimensions) * unit_mm(obj, context.scene)
+    column.label(text=f"{obj.name} is {across:.4g} mm across", icon="DRIVER_DISTANCE")
+
+
+def _draw_progress(layout: bpy.types.UILayout) -> None:
+    measuring = SESSION.measuring
+    row = layout.row(align=True)
+    text = "Canceling" if measuring.canceled else f"Measuring: {measuring.done:.0%}"
+    if hasattr(row, "progress"):
+        row.progress(factor=measuring.done, text=text)
+    else:
+        row.label(text=text, icon="SORTTIME")
+    row.operator("skinglow.cancel_measuring", text="", icon="CANCEL")
+
+
+class SKINGLOW_PT_sidebar(_Main, Sidebar, bpy.types.Panel):  # noqa: N801  Blender's naming
+    """In the sidebar."""
+
+
+class SKINGLOW_PT_object(_Main, ObjectProperties, bpy.types.Panel):  # noqa: N801
+    """In the Object properties."""
+
+    bl_options = {"DEFAULT_CLOSED"}
+
+
+CLASSES = (
+    SKINGLOW_PT_sidebar,
+    SKINGLOW_PT_object,
+    *look_panel.CLASSES,
+    *lights_panel.CLASSES,
+    *thickness_panel.CLASSES,
+    *lookup_table_panel.CLASSES,
+    *tools_panel.CLASSES,
+)
+
+
+def register() -> None:
+    """Adds the panels, each below the one before."""
+    for each in CLASSES:
+        bpy.utils.register_class(each)
+
+
+def unregister() -> None:
+    """Removes the panels."""
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)
