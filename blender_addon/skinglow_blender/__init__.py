@@ -12,8 +12,9 @@ from typing import Any
 
 from . import batch, bundled_core, scene_settings, skin_settings
 from .batch import BatchResult, BatchStep, Rig
+from .commands import freezing, light_listing, povray_export, skin
 from .commands import health as skin_health
-from .commands import light_listing, povray_export, skin
+from .commands.freezing import Frozen
 from .commands.health import Fault
 from .commands.skin import SkinState
 from .errors import SkinError
@@ -35,12 +36,14 @@ __all__ = [
     "BatchResult",
     "BatchStep",
     "Fault",
+    "Frozen",
     "Rebuilt",
     "Rig",
     "SkinError",
     "SkinState",
     "batch_main",
     "export_povray",
+    "freeze",
     "health",
     "light_report",
     "lut",
@@ -48,6 +51,7 @@ __all__ = [
     "register",
     "remove_skin",
     "render_batch",
+    "unfreeze",
     "unregister",
     "update",
 ]
@@ -103,6 +107,8 @@ lut = _registering(skin.lut)
 light_report = _registering(light_listing.light_report)
 health = _registering(skin_health.health)
 export_povray = _registering(povray_export.export_povray)
+freeze = _registering(freezing.freeze)
+unfreeze = _registering(freezing.unfreeze)
 remove_skin = _registering(skin.remove_skin)
 render_batch = _registering(batch.render_batch)
 batch_main = _registering(batch.main)

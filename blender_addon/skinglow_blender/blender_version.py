@@ -35,9 +35,13 @@ def shader_tree(owner: bpy.types.ID) -> bpy.types.NodeTree | None:
     return owner.node_tree
 
 
+#: By engine: the one in whose place it evaluates a scene (commands/freezing.py).
+STANDS_FOR: dict[str, str] = {}
+
+
 def output_target(scene: bpy.types.Scene) -> str:
     """Which of the output nodes of a material, light or world the scene's engine uses."""
-    engine = scene.render.engine
+    engine = STANDS_FOR.get(scene.render.engine, scene.render.engine)
     return "EEVEE" if engine.startswith("BLENDER_EEVEE") else "CYCLES" if engine == "CYCLES" else "ALL"
 
 

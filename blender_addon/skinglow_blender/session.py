@@ -23,6 +23,8 @@ class Session:
         self.faults: dict[str, str] = {}
         #: (node group, row) to the name and library of the object that owns the row.
         self.owners: dict[tuple[str, int], tuple[str, str | None]] = {}
+        #: Frozen skin to the frame at which the viewport was last looked at, and what its light depends on there.
+        self.marks: dict[str, tuple[int, str]] = {}
         self.rendering = False
         self.render_frame: float | None = None
         #: What the last update read, and of which depsgraph; None if undo or load made its objects invalid.
@@ -50,6 +52,7 @@ class Session:
         self.atlases.clear()
         self.owners.clear()
         self.faults.clear()
+        self.marks.clear()
         self.base_images.clear()
         self.reading = None
 

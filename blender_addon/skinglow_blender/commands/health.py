@@ -10,7 +10,8 @@ from ..errors import SkinError
 from ..read.measured_size import is_reshaped
 from ..read.mesh_reading import evaluated_mesh
 from ..session import SESSION
-from ..show.lut_image import SLOTS, images_of
+from ..show.frozen import frozen_file, frozen_frames, frozen_mark, is_frozen
+from ..show.lut_image import SLOTS, images_of, shown_image
 from ..show.skin_material import skin_node
 from ..thickness import thickness_attribute
 from ..thickness.thickness_attribute import KNOWN_ATTRIBUTE, THICKNESS_ATTRIBUTE
@@ -29,6 +30,7 @@ class Fault(NamedTuple):
 
 REPAIR = "press Repair, or call make_skin"
 MEASURE = "press Measure Thickness"
+FREEZE_AGAIN = "unfreeze it, or then freeze it again"
 
 
 def health(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None = None) -> list[Fault]:
@@ -60,12 +62,30 @@ def quick_faults(obj: bpy.types.Object) -> list[Fault]:
         materials = [slot.material for slot in obj.material_slots if slot.material is not None]
         if not any(_shows(material, group) for material in materials):
             faults.append(Fault("None of its materials has the Skinglow node, so it does not glow", REPAIR))
+        if is_frozen(group):
+            faults += _frozen_faults(obj, group)
     mesh = obj.data
     if any(name not in mesh.attributes for name in (THICKNESS_ATTRIBUTE, KNOWN_ATTRIBUTE)):
         faults.append(Fault("Its thickness is not known, so it does not glow", MEASURE))
     elif is_reshaped(mesh) and thickness_attribute.is_from_measurement(mesh):
         faults.append(Fault("Its mesh was edited after its thickness was measured", MEASURE))
     return faults
+
+
+def _frozen_faults(obj: bpy.types.Object, group: bpy.types.NodeTree) -> list[Fault]:
+    """At the frame that the viewport showed last; none before it was looked at."""
+    if obj.name_full not in SESSION.marks:
+        return []
+    frame, mark = SESSION.marks[obj.name_full]
+    first, last = frozen_frames(group)
+    if shown_image(group) is not None and not frozen_file(group, frame).is_file():
+        return [Fault(f"Its frozen image {frozen_file(group, frame)} is missing", FREEZE_AGAIN)]
+    if not first <= frame <= last:
+        nearest = min(max(frame, first), last)
+        return [Fault(f"It is frozen from frame {first} to {last}: frame {frame} shows frame {nearest}", FREEZE_AGAIN)]
+    if frozen_mark(group, obj.skinglow.row, frame) not in ("", mark):
+        return [Fault("Its lights, its place or its settings changed after it was frozen", FREEZE_AGAIN)]
+    return []
 
 
 def _shows(material: bpy.types.Material, group: bpy.types.NodeTree) -> bool:

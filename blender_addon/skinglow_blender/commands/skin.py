@@ -12,6 +12,7 @@ from ..live.live_update import Rebuilt, update_scene
 from ..read import measured_geometry, working_space, world_image
 from ..read.scene_reading import ROW_PROPERTY, read_skin
 from ..session import SESSION
+from ..show.frozen import is_frozen, read_frozen
 from ..show.lut_image import group_layout, image_pair, read_row, remove_images, shown_image
 from ..show.skin_group import clear
 from ..show.skin_material import add_to_materials, remove_from_material
@@ -134,6 +135,11 @@ def lut(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
     """
     settings = skin_settings_of(obj)
     group = settings.group
+    layout = group_layout(group)
+    if is_frozen(group):
+        row = read_frozen(group, settings.row, depsgraph.scene.frame_current)
+        size = len(row) if layout is None else layout.entries
+        return working_space.to_rec709(row[:, :3] if layout is None else shown_colors(row, size, layout))
     pair = image_pair(group, depsgraph.mode)
     image = shown_image(group)
     atlas = SESSION.atlases.get((group.name_full, depsgraph.mode))
@@ -147,7 +153,7 @@ def lut(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
     else:
         evaluated = obj.evaluated_get(depsgraph)
         size = read_skin(evaluated, evaluated.matrix_world).base[1]
-    row, layout = read_row(image, settings.row), group_layout(group)
+    row = read_row(image, settings.row)
     return working_space.to_rec709(row[:size, :3].copy() if layout is None else shown_colors(row, size, layout))
 
 

@@ -3,6 +3,7 @@
 
 import bpy
 
+from ..show.frozen import add_frozen_nodes, is_frozen
 from ..show.lut_image import GROUP_PROPERTY, GROUP_VERSION, group_layout, skin_groups
 from ..show.skin_group import build_plain
 from ..show.surface_group import build_surface
@@ -25,4 +26,6 @@ def upgrade() -> None:
             build_plain(group)
         else:
             build_surface(group, layout)
+        if is_frozen(group):
+            add_frozen_nodes(group)
         group[GROUP_PROPERTY] = GROUP_VERSION

@@ -11,6 +11,7 @@ from ..read import working_space
 from ..read.scene_lights import FIELDS
 from ..read.scene_reading import ROW_PROPERTY, SceneReading, Skin, read_scene
 from ..session import SESSION
+from ..show.frozen import is_frozen
 from ..show.lut_image import Atlas, ensure_images, has_room
 from ..show.skin_group import build_plain
 from ..show.surface_group import build_surface
@@ -18,6 +19,7 @@ from ..table.lut_layout import layout_of, plain_row, surface_row
 from ..table.occlusion import with_visible_fractions
 from ..table.skin_tables import Signature, Table, compute_table, signature_of
 from ..table.texel_mapping import texels_per_mm
+from .frozen_update import follow_frozen, mark_of
 
 
 class Rebuilt(NamedTuple):
@@ -52,6 +54,12 @@ def update_scene(depsgraph: bpy.types.Depsgraph, only_live: bool = False) -> lis
             continue
         groups.setdefault(group.name_full, (group, []))[1].append((obj, skin))
     for group, members in groups.values():
+        if is_frozen(group):
+            follow_frozen(group, members, faults)
+            if depsgraph.mode == "VIEWPORT":
+                frame = depsgraph.scene.frame_current
+                SESSION.marks.update((skin.key, (frame, mark_of(obj, skin, reading))) for obj, skin in members)
+            continue
         try:
             rebuilt += _update_group(group, members, reading, depsgraph.mode, only_live, faults)
         except SkinError as error:
@@ -226,7 +234,9 @@ def _set_row_property(obj: bpy.types.Object, skin: Skin, atlas: Atlas) -> None:
     wanted = (scale, 1.0 / width, (obj.skinglow.row + 0.5) / height, skin.strength)
     if tuple(obj.get(ROW_PROPERTY, ())) != wanted:
         obj[ROW_PROPERTY] = wanted
-        obj.update_tag(refresh={"OBJECT"})
+        # In an animation render the object itself is at the frame where that began: its keys have to be evaluated
+        # again. In the viewport that would take back what was edited and not keyed yet.
+        obj.update_tag(refresh={"OBJECT", "TIME"} if atlas.mode == "RENDER" else {"OBJECT"})
 
 
 #: Fields of a signature as text.

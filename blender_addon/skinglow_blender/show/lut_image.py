@@ -23,6 +23,9 @@ NODE_NAMES = ("LUT below", "LUT above")
 TEXEL_NODE, SURFACE_NODE = "LUT texel", "LUT"
 #: Custom property that marks our node groups, and the version of their nodes (file_upgrade.py).
 GROUP_PROPERTY = "skinglow"
+#: Custom property of a group that shows an image sequence (frozen.py), and the name of the image node that it adds.
+FROZEN_PROPERTY = "skinglow_frozen"
+HEADER_NODE = "LUT header"
 GROUP_VERSION = 2
 SLOTS = ("viewport_a", "viewport_b", "render_a", "render_b")
 
@@ -34,12 +37,13 @@ def is_skin_group(tree: bpy.types.NodeTree | None) -> bool:
 
 def image_nodes(group: bpy.types.NodeTree) -> list[bpy.types.Node]:
     """The nodes through which a group reads its image; empty if they were deleted."""
+    header = [group.nodes[HEADER_NODE]] if HEADER_NODE in group.nodes else []
     texel = group.nodes.get(TEXEL_NODE)
     if texel is not None:
         node = texel.node_tree.nodes.get(SURFACE_NODE) if texel.node_tree is not None else None
-        return [node] if node is not None else []
+        return [node, *header] if node is not None else []
     nodes = [group.nodes.get(name) for name in NODE_NAMES]
-    return nodes if None not in nodes else []
+    return nodes + header if None not in nodes else []
 
 
 def group_layout(group: bpy.types.NodeTree) -> Layout | None:
@@ -137,7 +141,8 @@ def _new_image(name: str, width: int, height: int) -> bpy.types.Image:
 
 def remove_images(group: bpy.types.NodeTree) -> None:
     """Deletes a group's images."""
-    delete_images([image for image in images_of(group) if image.library is None])
+    images = {*images_of(group), shown_image(group)} - {None}
+    delete_images([image for image in images if image.library is None])
 
 
 def delete_images(images: list[bpy.types.Image]) -> None:
@@ -199,7 +204,7 @@ class Atlas:
         """
         if not self._is_compared:
             self._is_compared = True
-            if np.array_equal(_read(image_pair(group, self.mode)[self.front]), self.pixels):
+            if np.array_equal(read_pixels(image_pair(group, self.mode)[self.front]), self.pixels):
                 self.is_dirty = False
                 return
         if self.was_shown and (self.mode == "RENDER" or is_rendered_in_view()):
@@ -244,10 +249,10 @@ def is_rendered_in_view() -> bool:
 
 def read_row(image: bpy.types.Image, row: int) -> np.ndarray:
     """A row's texels, (width, 4) float32, unconverted."""
-    return _read(image)[row].copy()
+    return read_pixels(image)[row].copy()
 
 
-def _read(image: bpy.types.Image) -> np.ndarray:
+def read_pixels(image: bpy.types.Image) -> np.ndarray:
     """All texels, (height, width, 4) float32, unconverted."""
     width, height = image.size
     pixels = np.empty(width * height * 4, np.float32)

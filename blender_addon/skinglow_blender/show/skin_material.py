@@ -7,7 +7,7 @@ import numpy as np
 from .. import blender_version
 from ..errors import SkinError
 from ..read import working_space
-from .lut_image import is_skin_group, skin_groups
+from .lut_image import FROZEN_PROPERTY, is_skin_group, skin_groups
 from .skin_group import new_group
 
 #: Custom property of the node in a material: the material's original emission sampling.
@@ -38,7 +38,7 @@ def add_to_materials(obj: bpy.types.Object, group: bpy.types.NodeTree | None) ->
                 "(Object > Relations > Make Local > ... and Materials) or make the skin in that file"
             )
     if group is None:
-        group = next((g for g in skin_groups() if g.library is None), None) or new_group()
+        group = next((g for g in skin_groups() if g.library is None and FROZEN_PROPERTY not in g), None) or new_group()
     for material in materials:
         node = skin_node(material)
         if node is None:

@@ -221,3 +221,20 @@ def check_a_skin_that_does_not_follow_renders_what_it_shows(work):
     np.testing.assert_allclose(right, before, rtol=1e-5)
     np.testing.assert_allclose(left, sb.lut(follows, depsgraph())[0], rtol=1e-5)
     assert abs(left - right).max() > 0.01
+
+
+def check_a_skin_with_keyed_scale_is_rendered_at_its_own_size(work):
+    """What the add-on sets on the object in each frame does not take back its keys to the first one's."""
+    add_light("Key")
+    obj = patch(size=0.5, material=black_material())
+    sb.make_skin(obj, thickness=[0.0] * 4, mode="paper")
+    for frame in range(1, 5):
+        obj.scale = [frame] * 3
+        obj.keyframe_insert("scale", frame=frame)
+    camera_above(4.0)
+    scene = render_settings(32, 32)
+    scene.frame_end = 4
+    scene.frame_set(1)
+    render_animation(work / "scaled")
+    widths = [int(np.count_nonzero(read_exr(work / f"scaled/{f:04d}.exr")[16].max(axis=1))) for f in range(1, 5)]
+    assert widths == [4, 8, 12, 16], widths
