@@ -10,7 +10,7 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any
 
-from . import batch, bundled_core, scene_settings, skin_settings
+from . import batch, bundled_core, preferences, scene_settings, skin_settings
 from .batch import BatchResult, BatchStep, Rig
 from .commands import freezing, light_listing, povray_export, skin
 from .commands import health as skin_health
@@ -20,7 +20,7 @@ from .commands.skin import SkinState
 from .errors import SkinError
 from .live import handlers
 from .live.live_update import Rebuilt
-from .ui import light_list, lut_preview, main_panel, measuring_operators, menus, operators
+from .ui import light_list, lut_preview, main_panel, measuring_operators, menus, operators, presets
 
 bl_info = {
     "name": "Skinglow",
@@ -60,10 +60,12 @@ _PARTS = (
     bundled_core,
     skin_settings,
     scene_settings,
+    preferences,
     lut_preview,
     light_list,
     operators,
     measuring_operators,
+    presets,
     main_panel,
     menus,
     handlers,

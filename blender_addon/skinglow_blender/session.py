@@ -29,6 +29,8 @@ class Session:
         self.render_frame: float | None = None
         #: What the last update read, and of which depsgraph; None if undo or load made its objects invalid.
         self.reading: tuple[int, SceneReading] | None = None
+        #: Keys of the objects that skins take their reference point from.
+        self.reference_objects: frozenset[str] = frozenset()
         #: Number of updates, one per edit: anything derived at a lower number may be out of date.
         self.updates = 0
         #: The core's lights made from the last reading.

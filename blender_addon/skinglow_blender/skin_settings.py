@@ -18,21 +18,42 @@ from bpy.props import (
     FloatVectorProperty,
     IntProperty,
     PointerProperty,
+    StringProperty,
 )
 
 from .errors import core
 
+#: Files store the numbers, and scripts use the identifiers.
 MODES = (
-    ("EXISTING", "Fixed", "Fixed reddish lookup that ignores the lights (mode 'existing' in Python)"),
+    (
+        "PHYSICAL",
+        "Physical",
+        "Layered skin, solved by radiative transfer and lit by the irradiance on its far side",
+        "NONE",
+        2,
+    ),
+    (
+        "EXISTING",
+        "Fixed",
+        "Fixed reddish lookup that ignores the lights, for comparison (mode 'existing' in Python)",
+        "NONE",
+        0,
+    ),
     (
         "PAPER",
-        "Tinted",
+        "Tinted (Kim et al.)",
         "Base lookup times blood weight plus attenuated light colors (Kim et al., Eq. 1 to 3), independent of the "
-        "power of the lights (mode 'paper' in Python)",
+        "power of the lights, for comparison (mode 'paper' in Python)",
+        "NONE",
+        1,
     ),
-    ("PHYSICAL", "Physical", "Layered skin, solved by radiative transfer and lit by the irradiance on its far side"),
 )
-WEIGHTS = (
+#: Names of modes and lightings that `make_skin` accepts besides their identifiers.
+ALIASES = {
+    "mode": {"FIXED": "EXISTING", "TINTED": "PAPER"},
+    "weights": {"PER_OBJECT": "OBJECT", "PER_PIXEL": "SURFACE", "AUTO": "SURFACE"},
+}
+LIGHTINGS = (
     (
         "OBJECT",
         "Per Object",
@@ -43,7 +64,6 @@ WEIGHTS = (
         "Per Pixel",
         "Compute the light on the far side at each pixel, with its angle: for lights that are close",
     ),
-    ("AUTO", "Automatic", "Per Pixel if a single weight may be more than 5% off anywhere on the object"),
 )
 BASES = (
     ("BUILTIN", "Built-in", "Brightness of the six-Gaussian skin profile (d'Eon and Luebke 2007)"),
@@ -54,6 +74,7 @@ REFERENCES = (
     ("BOUNDS", "Bounds", "Center of the bounding box of the evaluated mesh"),
     ("ORIGIN", "Origin", "Origin of the object"),
     ("POINT", "Point", "Custom point in world space"),
+    ("OBJECT", "Object", "Origin of another object, or a bone of an armature: moves with it"),
 )
 
 
@@ -86,29 +107,28 @@ TISSUE_SLIDERS = (
     "refractive_index",
     "cartilage_fraction",
 )
-_taking_preset = False
 
 
-def _preset_chosen(settings: "SkinSettings", context: bpy.types.Context) -> None:
-    global _taking_preset
-    if settings.preset == "CUSTOM":
-        return
-    tissue = core().TISSUE_PRESETS[settings.preset.lower()]
-    _taking_preset = True
-    try:
-        for name in TISSUE_SLIDERS:
-            setattr(settings, name, getattr(tissue, name))
-    finally:
-        _taking_preset = False
-    _changed(settings, context)
+@lru_cache(maxsize=1)
+def _tissues() -> dict[str, tuple[float, ...]]:
+    """The sliders of each preset, in single precision as Blender stores them."""
+    presets = core().TISSUE_PRESETS
+    return {
+        name: tuple(float(np.float32(getattr(presets[name.lower()], slider))) for slider in TISSUE_SLIDERS)
+        for name, _label, _description in PRESETS[1:]
+    }
 
 
-def _slider_moved(settings: "SkinSettings", context: bpy.types.Context) -> None:
-    if _taking_preset:
-        return
-    if settings.preset != "CUSTOM":
-        settings.preset = "CUSTOM"
-    _changed(settings, context)
+def _preset_of_sliders(settings: "SkinSettings") -> int:
+    """The preset is not stored: it is the one whose values the sliders show, also where they are keyed or driven."""
+    shown = tuple(getattr(settings, slider) for slider in TISSUE_SLIDERS)
+    return next((i for i, tissue in enumerate(_tissues().values(), 1) if tissue == shown), 0)
+
+
+def _set_sliders(settings: "SkinSettings", number: int) -> None:
+    if number > 0:
+        for slider, value in zip(TISSUE_SLIDERS, _tissues()[PRESETS[number][0]], strict=True):
+            setattr(settings, slider, value)
 
 
 class SkinSettings(bpy.types.PropertyGroup):
@@ -124,13 +144,13 @@ class SkinSettings(bpy.types.PropertyGroup):
     mode: EnumProperty(
         name="Mode",
         items=MODES,
-        default="PAPER",
+        default="PHYSICAL",
         update=_changed,
         description="How the transmitted light is computed",
     )
     weights: EnumProperty(
         name="Lighting",
-        items=WEIGHTS,
+        items=LIGHTINGS,
         default="OBJECT",
         update=_changed,
         description="Whether the lights are evaluated once per object or at each pixel (Physical mode)",
@@ -177,48 +197,52 @@ class SkinSettings(bpy.types.PropertyGroup):
         update=_changed,
         description="Constant, linear and quadratic coefficients of Eq. 2, for distances in scene units",
     )
-    # Not animatable: animation sets values without calling `update`. Key the sliders.
     preset: EnumProperty(
         name="Preset",
         items=PRESETS,
-        default="LIGHT",
-        update=_preset_chosen,
+        get=_preset_of_sliders,
+        set=_set_sliders,
         options=set(),
-        description="Predefined skin",
+        description="Sets the sliders to those of a predefined skin. To animate the skin, key the sliders",
     )
     melanin_fraction: FloatProperty(
         name="Melanin",
+        subtype="FACTOR",
         default=0.038,
         min=0.0,
         max=0.5,
         precision=3,
-        update=_slider_moved,
+        update=_changed,
         description="Volume fraction of melanosomes in the epidermis",
     )
     blood_fraction: FloatProperty(
         name="Blood Volume",
+        subtype="FACTOR",
         default=0.01,
         min=0.0,
         max=0.1,
         precision=4,
-        update=_slider_moved,
+        update=_changed,
         description="Volume fraction of whole blood (150 g/L hemoglobin) in the dermis",
     )
     oxygen_saturation: FloatProperty(
         name="Oxygenation",
+        subtype="FACTOR",
         default=0.75,
         min=0.0,
         max=1.0,
-        update=_slider_moved,
+        update=_changed,
         description="Fraction of the hemoglobin that is oxygenated",
     )
     epidermal_thickness_mm: FloatProperty(
         name="Epidermis",
+        # The subtype whose unit is mm whatever the unit of the scene.
+        subtype="DISTANCE_CAMERA",
         default=0.06,
         min=0.0,
         max=0.3,
         precision=3,
-        update=_slider_moved,
+        update=_changed,
         description="Thickness of each of the two epidermal layers, in mm",
     )
     scattering_scale: FloatProperty(
@@ -226,7 +250,7 @@ class SkinSettings(bpy.types.PropertyGroup):
         default=1.0,
         min=0.1,
         max=3.0,
-        update=_slider_moved,
+        update=_changed,
         description="Factor on the scattering coefficient of every layer",
     )
     refractive_index: FloatProperty(
@@ -234,15 +258,16 @@ class SkinSettings(bpy.types.PropertyGroup):
         default=1.4,
         min=1.0,
         max=1.6,
-        update=_slider_moved,
+        update=_changed,
         description="Index of refraction of every layer, surrounded by air",
     )
     cartilage_fraction: FloatProperty(
         name="Cartilage",
+        subtype="FACTOR",
         default=0.0,
         min=0.0,
         max=1.0,
-        update=_slider_moved,
+        update=_changed,
         description="Volume fraction of cartilage in the inner layer",
     )
     reference: EnumProperty(
@@ -253,7 +278,13 @@ class SkinSettings(bpy.types.PropertyGroup):
         description="Point of the skin from which distances to the lights are measured",
     )
     reference_point: FloatVectorProperty(
-        name="Point", subtype="XYZ", size=3, update=_changed, description="Location in world space"
+        name="Point", subtype="TRANSLATION", size=3, update=_changed, description="Location in world space"
+    )
+    reference_object: PointerProperty(
+        name="Object", type=bpy.types.Object, update=_changed, description="Object whose origin is the reference point"
+    )
+    reference_bone: StringProperty(
+        name="Bone", update=_changed, description="Bone of that armature whose head is the reference point; empty: none"
     )
     size: IntProperty(
         name="Table Size",
@@ -266,6 +297,8 @@ class SkinSettings(bpy.types.PropertyGroup):
     )
     max_thickness_mm: FloatProperty(
         name="Max Thickness",
+        # The subtype whose unit is mm whatever the unit of the scene.
+        subtype="DISTANCE_CAMERA",
         default=12.0,
         min=1e-3,
         soft_max=50.0,
@@ -275,6 +308,8 @@ class SkinSettings(bpy.types.PropertyGroup):
     )
     unit_mm: FloatProperty(
         name="Unit",
+        # The subtype whose unit is mm whatever the unit of the scene.
+        subtype="DISTANCE_CAMERA",
         default=0.0,
         min=0.0,
         soft_max=1000.0,
@@ -293,6 +328,7 @@ class SkinSettings(bpy.types.PropertyGroup):
     )
     min_openness: FloatProperty(
         name="Min Sky Visibility",
+        subtype="FACTOR",
         default=0.1,
         min=0.0,
         max=1.0,
@@ -336,14 +372,13 @@ def applied(settings: SkinSettings, values: dict[str, Any]) -> Iterator[None]:
     """
     before = {name: _value(settings, name) for name in SETTING_NAMES}
     try:
-        # The preset first: other settings modify it.
+        # The preset first: it sets the sliders, which may be given too.
         for name, value in sorted(values.items(), key=lambda item: item[0] != "preset"):
             _apply(settings, name, value)
         yield
     except BaseException:
-        # The preset last: moving a slider changes it.
-        for name in sorted(SETTING_NAMES, key=lambda name: name == "preset"):
-            if _value(settings, name) != before[name]:
+        for name in SETTING_NAMES:
+            if name != "preset" and _value(settings, name) != before[name]:
                 setattr(settings, name, before[name])
         raise
 
@@ -361,7 +396,7 @@ def _apply(settings: SkinSettings, name: str, value: Any) -> None:  # noqa: ANN4
     try:
         if rna.type in ("INT", "FLOAT"):
             _check_range(rna, value)
-        setattr(settings, name, value.upper() if upper else value)
+        setattr(settings, name, ALIASES.get(name, {}).get(value.upper(), value.upper()) if upper else value)
     except (TypeError, ValueError, OverflowError) as error:
         raise ValueError(f"make_skin: {name} = {value!r} is not allowed: {error}") from error
 

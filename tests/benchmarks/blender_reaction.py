@@ -70,7 +70,7 @@ def build(light_count: int, skins: int) -> list:
         obj = bpy.data.objects.new(f"Skin {i}", mesh)
         obj.location.x = i
         collection.objects.link(obj)
-        sb.make_skin(obj, thickness=[1.0] * 4)
+        sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
     return made
 
 

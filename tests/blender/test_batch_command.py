@@ -18,7 +18,7 @@ import skinglow_blender as sb
 bpy.ops.wm.read_factory_settings(use_empty=True)
 add_light("Key", color=(1.0, 0.0, 0.0))
 add_light("Fill", color=(0.0, 0.0, 1.0))
-sb.make_skin(patch(material=black_material()), thickness=[0.0] * 4)
+sb.make_skin(patch(material=black_material()), thickness=[0.0] * 4, mode='paper')
 camera_above()
 scene = render_settings(4, 4)
 scene.frame_end = 4

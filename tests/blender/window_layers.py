@@ -35,7 +35,7 @@ def steps():
     scene.collection.children.link(extra)
     lights = [add_light("Key", color=(1.0, 0.0, 0.0)), add_light("Fill", color=(0.0, 0.0, 1.0), collection=extra)]
     obj = patch()
-    sb.make_skin(obj, thickness=[0.0, 1.0, 2.0, 3.0])
+    sb.make_skin(obj, thickness=[0.0, 1.0, 2.0, 3.0], mode="paper")
     layers = [scene.view_layers[0], scene.view_layers.new("Second")]
     layers[1].layer_collection.children["Extra"].exclude = True
     # Back and forth again: by then both have been evaluated.

@@ -73,7 +73,7 @@ def _skin_entry(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> dict[s
         "name": obj.name_full,
         "view_layer": depsgraph.view_layer.name,
         "mode": seen.mode,
-        "weights": skin.choice_of(obj, depsgraph).weights,
+        "weights": seen.weights,
         "live": seen.live,
         "point": list(seen.point),
         # L of Eq. 3 in modes existing and paper; E, W/m^2, in mode physical.

@@ -30,6 +30,7 @@ class Fault(NamedTuple):
 
 REPAIR = "press Repair, or call make_skin"
 MEASURE = "press Measure Thickness"
+CHOOSE_REFERENCE = "Choose them in the panel Lookup Table, under Light Distance From"
 FREEZE_AGAIN = "unfreeze it, or then freeze it again"
 
 
@@ -64,12 +65,20 @@ def quick_faults(obj: bpy.types.Object) -> list[Fault]:
             faults.append(Fault("None of its materials has the Skinglow node, so it does not glow", REPAIR))
         if is_frozen(group):
             faults += _frozen_faults(obj, group)
+    settings = obj.skinglow
+    if settings.reference == "OBJECT" and not _has_reference(settings):
+        faults.append(Fault("The object or bone that it measures light distances from is missing", CHOOSE_REFERENCE))
     mesh = obj.data
     if any(name not in mesh.attributes for name in (THICKNESS_ATTRIBUTE, KNOWN_ATTRIBUTE)):
         faults.append(Fault("Its thickness is not known, so it does not glow", MEASURE))
     elif is_reshaped(mesh) and thickness_attribute.is_from_measurement(mesh):
         faults.append(Fault("Its mesh was edited after its thickness was measured", MEASURE))
     return faults
+
+
+def _has_reference(settings: bpy.types.PropertyGroup) -> bool:
+    obj, bone = settings.reference_object, settings.reference_bone
+    return obj is not None and (not bone or (obj.pose is not None and bone in obj.pose.bones))
 
 
 def _frozen_faults(obj: bpy.types.Object, group: bpy.types.NodeTree) -> list[Fault]:

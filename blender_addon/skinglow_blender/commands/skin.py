@@ -18,7 +18,7 @@ from ..show.skin_group import clear
 from ..show.skin_material import add_to_materials, remove_from_material
 from ..skin_settings import MEASURING_NAMES, SETTING_NAMES, applied
 from ..table.lut_layout import shown_colors
-from ..table.skin_tables import OBJECT_WEIGHT, Table, WeightsChoice
+from ..table.skin_tables import Table
 from ..thickness import thickness_attribute
 
 
@@ -27,8 +27,8 @@ class SkinState(NamedTuple):
 
     name: str  #: of the object
     mode: str  #: 'EXISTING', 'PAPER' or 'PHYSICAL'
-    weights: str  #: 'OBJECT' or 'SURFACE': the one in use if the setting is 'AUTO'
-    weights_bound: float | None  #: error bound of the object's weight, relative to its largest channel
+    weights: str  #: 'OBJECT' or 'SURFACE'
+    weights_bound: float | None  #: of a single weight, relative to its largest channel; None if lit per object
     point: tuple[float, float, float]  #: reference point of distances, world, scene units
     size: int  #: entries of its lookup
     max_thickness_mm: float  #: thickness at the last entry
@@ -44,15 +44,18 @@ def make_skin(obj: bpy.types.Object, thickness: Sequence[float] | None = None, *
     obj        a mesh object with faces, not in Edit Mode; its materials keep their surface
     thickness  custom thicknesses, mm, one per vertex, which are then kept; without it they are measured by ray tracing
                (only if the mesh, its scale or unit changed since the last time)
-    settings   any property of `obj.skinglow` (skin_settings.py): mode="existing"|"paper"|"physical",
-               weights="object"|"surface"|"auto" (mode physical: lit per object or per pixel), strength,
-               blood_weight, attenuation, reference="bounds"|"origin"|"point", reference_point (which implies
-               "point"), size, max_thickness_mm, unit_mm, rays, ... Another call changes only the given ones.
+    settings   any property of `obj.skinglow` (skin_settings.py): mode="physical"|"existing"|"paper" (also "fixed"
+               and "tinted"), weights="object"|"surface" (mode physical: lit per object or per pixel), strength,
+               blood_weight, attenuation, reference="bounds"|"origin"|"point"|"object", reference_point (which
+               implies "point"), reference_object and reference_bone (which imply "object"), size, max_thickness_mm,
+               unit_mm, rays, ... Another call changes only the given ones.
     Raises SkinError if the object cannot be a skin, ValueError naming a setting that is not allowed.
     """
     measured_geometry.check_mesh(obj)
     if "reference_point" in settings:
         settings.setdefault("reference", "POINT")
+    if "reference_object" in settings:
+        settings.setdefault("reference", "OBJECT")
     with applied(obj.skinglow, settings):
         scene = bpy.context.scene
         if thickness is None:
@@ -83,12 +86,12 @@ def state_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SkinState
     values, known = thickness_attribute.read(obj.data)
     values = values[known]
     skin = read_skin(evaluated, evaluated.matrix_world)
-    choice = choice_of(obj, depsgraph)
+    table = table_of(obj, depsgraph)
     return SkinState(
         name=obj.name,
         mode=skin.mode,
-        weights=choice.weights,
-        weights_bound=choice.bound,
+        weights=skin.weights,
+        weights_bound=table.bound if table is not None else None,
         point=skin.point,
         size=skin.base[1],
         max_thickness_mm=skin.base[2],
@@ -104,12 +107,6 @@ def table_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Table | N
     group = obj.original.skinglow.group
     atlas = SESSION.atlases.get((group.name_full, depsgraph.mode)) if group is not None else None
     return atlas.tables.get(obj.original.name_full) if atlas is not None else None
-
-
-def choice_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> WeightsChoice:
-    """Whether a skin is lit per object or per pixel, and the error bound of the former."""
-    table = table_of(obj, depsgraph)
-    return table.choice if table is not None else OBJECT_WEIGHT
 
 
 def update(depsgraph: bpy.types.Depsgraph) -> list[Rebuilt]:

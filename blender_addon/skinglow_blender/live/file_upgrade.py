@@ -20,6 +20,9 @@ def upgrade() -> None:
         return
     for mesh in bpy.data.meshes:
         mark_known(mesh)
+    for obj in bpy.data.objects:
+        if obj.library is None and obj.skinglow.enabled and obj.skinglow.group in old:
+            _keep_settings(obj.skinglow)
     for group in old:
         layout = group_layout(group)
         if layout is None:
@@ -29,3 +32,11 @@ def upgrade() -> None:
         if is_frozen(group):
             add_frozen_nodes(group)
         group[GROUP_PROPERTY] = GROUP_VERSION
+
+
+def _keep_settings(settings: bpy.types.PropertyGroup) -> None:
+    """Stores what an earlier version had by default, or called by a name that there is no longer."""
+    if not settings.is_property_set("mode"):
+        settings.mode = "PAPER"
+    if not settings.weights:  # Automatic, which was Per Pixel on every closed surface
+        settings.weights = "SURFACE"

@@ -1,60 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Handlers of Blender's events. They never raise: a fault is stored and shown in the panel."""
 
-import traceback
-from collections.abc import Callable
 from typing import Any
 
 import bpy
-from bpy.app.handlers import persistent
 
-from ..errors import SkinError
+from ..preferences import follows_lights
 from ..read import world_image
 from ..session import SESSION
 from ..show.group_following import follow_materials, remove_orphans
-from ..show.lut_image import GROUP_PROPERTY, images_of, skin_groups
+from ..show.lut_image import images_of, skin_groups
 from ..table import occlusion
 from .file_upgrade import upgrade
+from .guard import guarded, has_skins
 from .live_update import update_scene
 from .relevant_updates import changes_of
-
-
-def guarded(function: Callable[..., None]) -> Callable[..., None]:
-    """Catches all exceptions. Blender passes as many arguments as the function has positional ones: two."""
-
-    def handler(first: Any, second: Any = None) -> None:  # noqa: ANN401  differs between handlers and versions
-        try:
-            function(first, second)
-        except (SkinError, ValueError) as error:
-            SESSION.faults["*"] = str(error)
-        except Exception as error:  # noqa: BLE001  nothing may interrupt the user's work
-            SESSION.faults["*"] = f"Unexpected {type(error).__name__}: {error} (details in the system console)"
-            traceback.print_exc()
-
-    handler.__name__ = function.__name__
-    return persistent(handler)
-
-
-def has_skins() -> bool:
-    """Whether the file has, or had since the last update, a skin; costs nothing in those that have none."""
-    return bool(SESSION.owners or SESSION.faults) or any(GROUP_PROPERTY in tree for tree in bpy.data.node_groups)
-
-
-def is_shown(depsgraph: bpy.types.Depsgraph) -> bool:
-    """Whether a depsgraph belongs to a render or to a view layer shown in a window.
-
-    `frame_set` evaluates all view layers of the scene; the viewport's lookup is that of the visible layer.
-    """
-    if depsgraph.mode == "RENDER":
-        return True
-    layers = [window.view_layer for window in bpy.context.window_manager.windows] or [bpy.context.view_layer]
-    return depsgraph.view_layer in layers
+from .windows import follow_windows, is_shown, stop_following_windows, update_shown, update_windows_soon
 
 
 @guarded
 def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Called after an edit."""
-    if not has_skins() or not is_shown(depsgraph):
+    if not has_skins() or not is_shown(depsgraph) or not follows_lights():
         return
     changes = changes_of(depsgraph)
     if changes.materials:
@@ -64,7 +31,7 @@ def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
         world_image.forget(name)
     if not known_images and not changes.skins:
         return
-    if update_scene(depsgraph, only_live=True):
+    if update_shown(depsgraph):
         update_windows_soon()
 
 
@@ -78,7 +45,7 @@ def on_frame_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> N
         # has read it.
         return
     if is_shown(depsgraph):
-        update_scene(depsgraph, only_live=True)
+        update_shown(depsgraph)
 
 
 @guarded
@@ -116,28 +83,6 @@ def on_undo(_first: Any, _second: Any) -> None:  # noqa: ANN401
     update_windows_soon()
 
 
-def update_windows_soon() -> None:
-    """Schedules another update of the scenes in the windows.
-
-    What a handler writes makes Blender evaluate again without a report, and Blender 4.5 was seen to move instanced
-    lights of hidden collections only then. There are no timers in background mode: scripts call update().
-    """
-    if not bpy.app.background and not bpy.app.timers.is_registered(update_windows):
-        bpy.app.timers.register(update_windows, first_interval=0.05)
-
-
-def update_windows() -> None:
-    """Updates the scenes in the windows."""
-    if SESSION.rendering or not has_skins():
-        return
-    try:
-        for window in bpy.context.window_manager.windows:
-            if window.view_layer.depsgraph is not None:
-                update_scene(window.view_layer.depsgraph, only_live=True)
-    except (SkinError, ValueError) as error:
-        SESSION.faults["*"] = str(error)
-
-
 @guarded
 def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
     """Called after loading a file. Evaluations during loading are not reported, so everything is updated here."""
@@ -163,17 +108,6 @@ def show_viewport() -> None:
         atlas = SESSION.atlases.get((group.name_full, "VIEWPORT"))
         if atlas is not None:
             atlas.show(group)
-
-
-#: Owner of our subscriptions.
-SUBSCRIPTIONS = object()
-
-
-def follow_windows() -> None:
-    """Subscribes to scene and view layer changes of windows: a layer evaluated before is shown without a report."""
-    bpy.msgbus.clear_by_owner(SUBSCRIPTIONS)
-    for name in ("scene", "view_layer"):
-        bpy.msgbus.subscribe_rna(key=(bpy.types.Window, name), owner=SUBSCRIPTIONS, args=(), notify=update_windows_soon)
 
 
 HANDLERS = (
@@ -205,7 +139,5 @@ def unregister() -> None:
             handlers.remove(handler)
     # Whoever saves the file from now on, and whoever renders it, has the pixels that are shown now.
     on_save(None, None)
-    bpy.msgbus.clear_by_owner(SUBSCRIPTIONS)
-    if bpy.app.timers.is_registered(update_windows):
-        bpy.app.timers.unregister(update_windows)
+    stop_following_windows()
     SESSION.forget_tables()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Updates the skins' images after a change in the scene; does nothing if nothing changed."""
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import bpy
@@ -36,18 +37,26 @@ class Rebuilt(NamedTuple):
         return why_changed(self.before, self.after)
 
 
-def update_scene(depsgraph: bpy.types.Depsgraph, only_live: bool = False) -> list[Rebuilt]:
+def update_scene(
+    depsgraph: bpy.types.Depsgraph,
+    only_live: bool = False,
+    left_out: Callable[[bpy.types.Object], bool] | None = None,
+) -> list[Rebuilt]:
     """Recomputes and shows what changed in this depsgraph. Faults go to SESSION.faults and do not affect other skins.
 
     A skin with a fault keeps its last good table. With only_live, skins that are not live keep the table they show.
+    left_out  whether another view layer decides what a skin shows
     """
     SESSION.updates += 1
     faults: dict[str, str] = {}
     reading = with_visible_fractions(read_scene(depsgraph), depsgraph, faults)
     SESSION.reading = (depsgraph.as_pointer(), reading)
+    SESSION.reference_objects = frozenset(skin.reference for _obj, skin in reading.skins if skin.reference)
     rebuilt: list[Rebuilt] = []
     groups: dict[str, tuple[bpy.types.NodeTree, list[tuple[bpy.types.Object, Skin]]]] = {}
     for obj, skin in reading.skins:
+        if left_out is not None and left_out(obj):
+            continue
         group = obj.skinglow.group
         if group is None:
             faults[skin.key] = f"{skin.name}: its node group was deleted: make the skin again"

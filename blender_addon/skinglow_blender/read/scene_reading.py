@@ -24,13 +24,14 @@ class Skin(NamedTuple):
     name: str  #: of the object
     key: str  #: name with library: unique in the file
     mode: str
-    weights: str  #: 'OBJECT', 'SURFACE' or 'AUTO'; always 'OBJECT' where the mode is not physical
+    weights: str  #: 'OBJECT' or 'SURFACE'; always 'OBJECT' where the mode is not physical
     live: bool
     strength: float
     base: tuple  #: key of the base lookup (_base_key)
     blood_weight: tuple[float, float, float]
     attenuation: tuple[float, float, float]
     point: tuple[float, float, float]  #: reference point of distances to the lights, world
+    reference: str  #: key of the object whose origin or bone is that point, or ""
     world_size: float  #: edge length of the object's unit cube in the world, scene units
     surface: "SurfaceBounds | None"  #: needed for light per pixel only
 
@@ -91,7 +92,8 @@ def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
 def read_skin(obj: bpy.types.Object, matrix: Matrix) -> Skin:
     """Reads the settings of an evaluated skin object (with drivers and keyframes applied) at that world matrix."""
     settings = obj.skinglow
-    weights = settings.weights if settings.mode == "PHYSICAL" else "OBJECT"
+    # A number of an earlier version that no longer has a name reads as "" until file_upgrade.py replaced it.
+    weights = (settings.weights or "SURFACE") if settings.mode == "PHYSICAL" else "OBJECT"
     world_size = abs(matrix.to_3x3().determinant()) ** (1.0 / 3.0)
     return Skin(
         name=obj.name,
@@ -104,6 +106,7 @@ def read_skin(obj: bpy.types.Object, matrix: Matrix) -> Skin:
         blood_weight=_triple(settings.blood_weight),
         attenuation=_triple(settings.attenuation),
         point=_reference_point(obj, matrix),
+        reference=_key_of(settings.reference_object) if settings.reference == "OBJECT" else "",
         world_size=world_size,
         surface=None if weights == "OBJECT" else _surface_bounds(obj, matrix, world_size),
     )
@@ -145,6 +148,18 @@ def _triple(vector: bpy.types.bpy_prop_array) -> tuple[float, float, float]:
     return as_typed(vector[0]), as_typed(vector[1]), as_typed(vector[2])
 
 
+def _key_of(obj: bpy.types.Object | None) -> str:
+    return obj.original.name_full if obj is not None else ""
+
+
+def _point_of(obj: bpy.types.Object, bone: str) -> tuple[float, float, float]:
+    """The origin of an evaluated object, or the head of one of its bones, in the world."""
+    matrix = obj.matrix_world
+    if bone and obj.pose is not None and bone in obj.pose.bones:
+        return tuple(matrix @ obj.pose.bones[bone].head)
+    return tuple(matrix.translation)
+
+
 def _reference_point(obj: bpy.types.Object, matrix: Matrix) -> tuple[float, float, float]:
     settings = obj.skinglow
     if settings.reference == "POINT":
@@ -152,6 +167,8 @@ def _reference_point(obj: bpy.types.Object, matrix: Matrix) -> tuple[float, floa
     if settings.reference == "ORIGIN":
         origin = matrix.col[3]
         return origin[0], origin[1], origin[2]
+    if settings.reference == "OBJECT" and settings.reference_object is not None:
+        return _point_of(settings.reference_object, settings.reference_bone)
     # In double precision: mathutils rounds to single, which would cost the distances their last digits.
     box = obj.bound_box
     (ax, ay, az), (bx, by, bz) = box[0], box[6]

@@ -26,7 +26,7 @@ GROUP_PROPERTY = "skinglow"
 #: Custom property of a group that shows an image sequence (frozen.py), and the name of the image node that it adds.
 FROZEN_PROPERTY = "skinglow_frozen"
 HEADER_NODE = "LUT header"
-GROUP_VERSION = 2
+GROUP_VERSION = 3
 SLOTS = ("viewport_a", "viewport_b", "render_a", "render_b")
 
 

@@ -16,20 +16,8 @@ from ..session import SESSION
 from ..skin_settings import TISSUE_SLIDERS
 from .lut_layout import MAX_TERMS, Layout, layout_of
 
-#: With weights 'AUTO', the largest relative error at which the object's single weight is used.
-AUTO_TOLERANCE = 0.05
 #: The largest pixel value of a float image.
 BRIGHTEST = float(np.finfo(np.float32).max)
-
-
-class WeightsChoice(NamedTuple):
-    """Whether a skin is lit per object or per pixel."""
-
-    weights: str  #: 'OBJECT' or 'SURFACE'
-    bound: float | None  #: relative error bound of the object's weight on the surface; None: not computed
-
-
-OBJECT_WEIGHT = WeightsChoice("OBJECT", None)
 
 
 class Table(NamedTuple):
@@ -39,7 +27,7 @@ class Table(NamedTuple):
     texel_mapping: tuple[float, float]  #: as skinglow.BaseLut.texel_mapping
     weight: tuple[float, float, float] | None  #: what the base was multiplied by; None in mode `existing`
     columns: np.ndarray  #: (size, 3, 3): M(d)
-    choice: WeightsChoice = OBJECT_WEIGHT
+    bound: float | None = None  #: relative error bound of the object's weight on the surface; None: not computed
     lighting: Any = None  #: a skinglow.SurfaceLighting if lit per pixel
     far_lights: frozenset[str] = frozenset()  #: names of the lights without a term in it
 
@@ -152,13 +140,13 @@ def compute_table(skin: Skin, lights: list[SceneLight], world: World | None, cap
         colors = sg.six_gaussian_lookup(base.size, base.max_thickness_mm)
         return Table(colors, base.texel_mapping, None, colors[:, :, None] * np.eye(3))
     core_lights = core_lights_of(skin, lights)
-    choice, lighting, far = OBJECT_WEIGHT, None, frozenset()
+    bound, lighting, far = None, None, frozenset()
     if skin.mode == "PAPER":
         weight = np.add(skin.blood_weight, sg.light_weight(core_lights, skin.point, skin.attenuation))
     else:
         irradiance = np.add(sg.object_irradiance(core_lights, skin.point), world_irradiance(world))
-        choice = _choose_weights(skin, core_lights, world, irradiance)
-        if choice.weights == "SURFACE":
+        if skin.surface is not None:
+            bound = _object_weight_error(skin, core_lights, world, irradiance)
             lighting = _lighting(skin, core_lights, world, capacity)
             far = frozenset(core_lights[i].name for i in lighting.far_lights)
         # Light leaves the skin diffusely: radiance is radiant exitance over pi.
@@ -166,19 +154,16 @@ def compute_table(skin: Skin, lights: list[SceneLight], world: World | None, cap
     colors = sg.recolor(base, weight)
     if max(colors.max(), -colors.min()) > BRIGHTEST:
         raise SkinError(f"{skin.name}: the lookup exceeds the range of a float image: reduce the power of the lights")
-    return Table(colors, base.texel_mapping, tuple(float(w) for w in weight), base.matrices, choice, lighting, far)
+    return Table(colors, base.texel_mapping, tuple(float(w) for w in weight), base.matrices, bound, lighting, far)
 
 
-def _choose_weights(skin: Skin, lights: list, world: World | None, irradiance: np.ndarray) -> WeightsChoice:
-    if skin.surface is None:
-        return OBJECT_WEIGHT
+def _object_weight_error(skin: Skin, lights: list, world: World | None, irradiance: np.ndarray) -> float:
     surface = skin.surface
     error = core().object_irradiance_error(lights, skin.point, surface.min, surface.max, surface.normal_cone)
     if world is not None:
         error = np.add(error, world.environment.mean_irradiance_error)
     largest = float(np.abs(irradiance).max())
-    bound = float(error.max()) / largest if largest > 0.0 else 0.0
-    return WeightsChoice("SURFACE" if skin.weights == "SURFACE" or bound > AUTO_TOLERANCE else "OBJECT", bound)
+    return float(error.max()) / largest if largest > 0.0 else 0.0
 
 
 def _lighting(skin: Skin, lights: list, world: World | None, capacity: Layout | None) -> Any:  # noqa: ANN401

@@ -13,6 +13,7 @@ from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty, In
 
 from ..commands.light_listing import light_report
 from ..errors import SkinError
+from ..live.guard import faults_shown
 from ..read.scene_reading import SceneReading
 from ..session import SESSION
 
@@ -92,8 +93,16 @@ def _last_reading(depsgraph: bpy.types.Depsgraph, updates: int) -> SceneReading 
     return SESSION.reading[1]
 
 
-def _fill_soon() -> None:
-    if SESSION.rendering or not fill_requested():
+def _fill_soon() -> float | None:
+    if SESSION.rendering:
+        return DELAY
+    with faults_shown():
+        _fill_and_redraw()
+    return None
+
+
+def _fill_and_redraw() -> None:
+    if not fill_requested():
         return
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:

@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..commands.skin import choice_of
+from ..commands.skin import table_of
 from . import light_list
 from .locations import InObjectProperties, InSidebar, SkinPanel
 from .wrapped_text import draw_wrapped
@@ -94,17 +94,13 @@ def _icon_of(kind: str) -> str:
 
 
 def _draw_lighting(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context) -> None:
-    """How a skin in Physical mode is lit, and what Automatic has chosen."""
+    """How a skin in Physical mode is lit."""
     column = layout.column(align=True)
     column.use_property_split, column.use_property_decorate = True, False
     column.prop(obj.skinglow, "weights")
-    choice = choice_of(obj, context.view_layer.depsgraph)
-    if choice.bound is not None:
-        if choice.weights == "SURFACE":
-            text = f"Lit per pixel: a single weight may be {choice.bound:.0%} off"
-        else:
-            text = f"Lit per object: may be {choice.bound:.0%} off"
-        draw_wrapped(column, text, context, "INFO")
+    table = table_of(obj, context.view_layer.depsgraph)
+    if table is not None and table.bound is not None:
+        draw_wrapped(column, f"Per Object would be up to {table.bound:.0%} off here", context, "INFO")
     column.prop(context.scene.skinglow, "occlusion")
 
 

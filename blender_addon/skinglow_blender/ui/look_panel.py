@@ -5,6 +5,7 @@ import bpy
 
 from ..skin_settings import TISSUE_SLIDERS
 from .locations import InObjectProperties, InSidebar, SkinPanel
+from .presets import draw_presets
 
 
 class _Look(SkinPanel):
@@ -48,7 +49,7 @@ def draw_look(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> 
     layout.prop(settings, "mode")
     layout.prop(settings, "strength")
     if settings.mode == "PHYSICAL" or (settings.mode == "PAPER" and settings.base == "SKIN"):
-        layout.prop(settings, "preset")
+        draw_presets(layout, settings)
         column = layout.column(align=True)
         for name in TISSUE_SLIDERS:
             column.prop(settings, name)

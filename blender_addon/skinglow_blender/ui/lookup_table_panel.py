@@ -12,14 +12,19 @@ class _LookupTable(SkinPanel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.object.skinglow
-        layout.use_property_split, layout.use_property_decorate = True, False
+        layout.use_property_split, layout.use_property_decorate = True, True
         column = layout.column(align=True)
-        column.prop(settings, "max_thickness_mm", text="Max Thickness (mm)")
+        column.prop(settings, "max_thickness_mm")
         column.prop(settings, "size")
         if settings.mode != "EXISTING":
             layout.prop(settings, "reference")
             if settings.reference == "POINT":
                 layout.prop(settings, "reference_point")
+            elif settings.reference == "OBJECT":
+                layout.prop(settings, "reference_object")
+                reference = settings.reference_object
+                if reference is not None and reference.type == "ARMATURE":
+                    layout.prop_search(settings, "reference_bone", reference.data, "bones")
 
 
 class SKINGLOW_PT_sidebar_lookup(_LookupTable, InSidebar, bpy.types.Panel):  # noqa: N801  Blender's naming

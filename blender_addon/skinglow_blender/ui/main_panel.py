@@ -58,7 +58,7 @@ def _draw_start(layout: bpy.types.UILayout, obj: bpy.types.Object | None, contex
         return
     column = layout.column(align=True)
     column.use_property_split, column.use_property_decorate = True, False
-    column.prop(obj.skinglow, "unit_mm", text="Unit (mm)")
+    column.prop(obj.skinglow, "unit_mm", text="Unit")
     across = max(obj.dimensions) * unit_mm(obj, context.scene)
     column.label(text=f"{obj.name} is {across:.4g} mm across", icon="DRIVER_DISTANCE")
 

@@ -2,17 +2,22 @@
 """The operators that measure thickness: in the background of a window, synchronously from scripts."""
 
 import bpy
+from bpy.props import EnumProperty, FloatProperty
 
 from ..commands import skin
 from ..errors import SkinError
+from ..preferences import of_new_skins
 from ..read.measured_geometry import Geometry, read_geometry
 from ..session import SESSION
+from ..skin_settings import LIGHTINGS, MODES, PRESETS
 from ..thickness import thickness_attribute
 from ..thickness.measuring import Measuring
 from .operators import selected_meshes, selected_skins
 
 #: Seconds between two checks of the thread.
 INTERVAL = 0.1
+#: Settings that Make Skin Glow offers in Adjust Last Operation.
+CHOICES = ("mode", "weights", "preset", "unit_mm")
 
 
 class _MeasuringOperator:
@@ -23,6 +28,9 @@ class _MeasuringOperator:
     def to_measure(self, context: bpy.types.Context) -> dict[str, Geometry]:
         """The geometry to measure; raises SkinError for a mesh that cannot be measured."""
         raise NotImplementedError
+
+    def before_storing(self, context: bpy.types.Context, names: list[str]) -> None:
+        """Runs before the thickness of the meshes is stored."""
 
     def finish(self, context: bpy.types.Context, names: list[str]) -> str:
         """Runs after the thickness of the meshes is stored; returns the message to report."""
@@ -96,6 +104,7 @@ class _MeasuringOperator:
 
     def _store(self, context: bpy.types.Context, geometries: dict, thicknesses: dict) -> set[str]:
         try:
+            self.before_storing(context, self._names)
             for name, values in thicknesses.items():
                 thickness_attribute.store_measured(_object(name), context.scene, geometries[name], *values)
             self.report({"INFO"}, self.finish(context, self._names))
@@ -162,6 +171,18 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
         "Measure the thickness of the selected meshes and let the light of the scene shine through their materials"
     )
 
+    mode: EnumProperty(name="Mode", items=MODES, default="PHYSICAL", options={"SKIP_SAVE"})
+    weights: EnumProperty(name="Lighting", items=LIGHTINGS, default="OBJECT", options={"SKIP_SAVE"})
+    preset: EnumProperty(name="Preset", items=PRESETS[1:], default="LIGHT", options={"SKIP_SAVE"})
+    unit_mm: FloatProperty(
+        name="Unit",
+        subtype="DISTANCE_CAMERA",
+        min=0.0,
+        max=1e9,
+        options={"SKIP_SAVE"},
+        description="Length of one Blender unit; 0 uses the unit scale of the scene",
+    )
+
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if not _may_measure(cls, context):
@@ -178,19 +199,32 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
         found = {}
         for obj in self.targets(context):
             geometry = read_geometry(obj, context.scene)
+            unit = self._settings(obj).get("unit_mm", 0.0)
+            if unit > 0.0:
+                geometry = geometry._replace(unit_mm=unit)
             if not thickness_attribute.is_measured(obj, geometry):
                 found[obj.name_full] = geometry
         return found
 
+    def before_storing(self, _context: bpy.types.Context, names: list[str]) -> None:
+        for name in names:
+            obj = _object(name)
+            obj.skinglow.unit_mm = self._settings(obj).get("unit_mm", obj.skinglow.unit_mm)
+
     def finish(self, _context: bpy.types.Context, names: list[str]) -> str:
-        states = [skin.make_skin(_object(name)) for name in names]
+        states = [skin.make_skin(obj, **self._settings(obj)) for obj in map(_object, names)]
         return "; ".join(f"{s.name}: {s.thickness_mm[0]:.2f} to {s.thickness_mm[1]:.2f} mm thick" for s in states)
 
+    def _settings(self, obj: bpy.types.Object) -> dict[str, object]:
+        """What was chosen in Adjust Last Operation; for a new skin, what the preferences say of the rest."""
+        chosen = {name: getattr(self, name) for name in CHOICES if self.properties.is_property_set(name)}
+        return chosen if obj.skinglow.enabled else of_new_skins() | chosen
 
-class SKINGLOW_OT_bake(_MeasuringOperator, bpy.types.Operator):  # noqa: N801
+
+class SKINGLOW_OT_measure_thickness(_MeasuringOperator, bpy.types.Operator):  # noqa: N801
     """Measures the thickness of skins again."""
 
-    bl_idname = "skinglow.bake"
+    bl_idname = "skinglow.measure_thickness"
     bl_label = "Measure Thickness"
     bl_description = (
         "Measure the thickness of the selected skins again, for example after editing the mesh; Esc cancels"
@@ -235,7 +269,7 @@ class SKINGLOW_OT_cancel_measuring(bpy.types.Operator):  # noqa: N801
         return {"FINISHED"}
 
 
-CLASSES = (SKINGLOW_OT_make, SKINGLOW_OT_bake, SKINGLOW_OT_cancel_measuring)
+CLASSES = (SKINGLOW_OT_make, SKINGLOW_OT_measure_thickness, SKINGLOW_OT_cancel_measuring)
 
 
 def register() -> None:

@@ -18,7 +18,7 @@ class SKINGLOW_MT_object(bpy.types.Menu):  # noqa: N801  Blender's naming
         layout.operator_context = "INVOKE_DEFAULT"
         layout.operator("skinglow.make", icon="LIGHT_SUN")
         if selected_skins(context):
-            layout.operator("skinglow.bake")
+            layout.operator("skinglow.measure_thickness")
             layout.operator("skinglow.repair")
             layout.separator()
             layout.operator("skinglow.reset")

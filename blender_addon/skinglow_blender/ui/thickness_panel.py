@@ -29,14 +29,14 @@ def draw_thickness(layout: bpy.types.UILayout, obj: bpy.types.Object, context: b
     """Settings for measuring thickness."""
     layout.use_property_split, layout.use_property_decorate = True, False
     column = layout.column(align=True)
-    column.prop(obj.skinglow, "unit_mm", text="Unit (mm)")
+    column.prop(obj.skinglow, "unit_mm", text="Unit")
     column.prop(obj.skinglow, "rays")
     column.prop(obj.skinglow, "min_openness", slider=True)
     across = max(obj.dimensions) * unit_mm(obj, context.scene)
     layout.label(text=f"{obj.name} is {across:.4g} mm across", icon="DRIVER_DISTANCE")
     if text := no_far_side_text(obj.data):
         draw_wrapped(layout.column(align=True), text, context, icon="ERROR")
-    layout.operator("skinglow.bake", icon="DRIVER_DISTANCE")
+    layout.operator("skinglow.measure_thickness", icon="DRIVER_DISTANCE")
 
 
 CLASSES = (SKINGLOW_PT_sidebar_thickness, SKINGLOW_PT_object_thickness)

@@ -11,7 +11,7 @@ THIN = [0.0, 1.0, 2.0, 3.0]
 
 def skin(name="Patch", **settings):
     obj = patch(name)
-    sb.make_skin(obj, thickness=THIN, **settings)
+    sb.make_skin(obj, thickness=THIN, **{"mode": "paper", **settings})
     return obj
 
 
@@ -159,7 +159,7 @@ def check_skins_on_shared_and_own_materials(_work):
     third = patch("Third", location=(0.0, 3.0, 0.0), material=bpy.data.materials.new("Own"))
     skins = [first, second, third]
     for obj in skins:
-        sb.make_skin(obj, thickness=THIN)
+        sb.make_skin(obj, thickness=THIN, mode="paper")
     assert_fresh(*skins)
     assert len({obj.skinglow.row for obj in skins}) == 3
     # A copy has the row of what it was copied from until the add-on gives it its own; so has a copy of a copy.
@@ -251,7 +251,7 @@ def check_remove_without_trace(_work):
         name: len(getattr(bpy.data, name)) for name in ("images", "node_groups", "materials", "meshes", "objects")
     }
     for each in (obj, other):
-        sb.make_skin(each, thickness=THIN)
+        sb.make_skin(each, thickness=THIN, mode="paper")
     sb.remove_skin(obj)
     assert_fresh(other)
     assert "skinglow_thickness" not in obj.data.attributes
@@ -263,5 +263,5 @@ def check_remove_without_trace(_work):
     assert not [key for each in (obj, obj.data) for key in each.keys() if "skinglow" in key and key != "skinglow"]
     assert {name: len(getattr(bpy.data, name)) for name in before} == before
     # And on again.
-    sb.make_skin(obj, thickness=THIN)
+    sb.make_skin(obj, thickness=THIN, mode="paper")
     assert_fresh(obj)

@@ -37,7 +37,7 @@ def check_undo_of_making_a_skin(_work):
     add_light("Key")
     patch("First")
     bpy.ops.ed.undo_push(message="plain")
-    sb.make_skin(bpy.data.objects["First"], thickness=THIN)
+    sb.make_skin(bpy.data.objects["First"], thickness=THIN, mode="paper")
     bpy.ops.ed.undo_push(message="skin")
     bpy.ops.ed.undo()
     assert not bpy.data.objects["First"].skinglow.enabled

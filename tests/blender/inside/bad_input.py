@@ -43,13 +43,13 @@ def check_settings(_work):
     refused(ValueError, "mode = 'magic'", sb.make_skin, obj, thickness=THIN, mode="magic")
     refused(sb.SkinError, "4 vertices", sb.make_skin, obj, thickness=[1.0])
     refused(sb.SkinError, "negative or not finite", sb.make_skin, obj, thickness=[0, 1, 2, np.nan])
-    refused(sb.SkinError, "no image is selected", sb.make_skin, obj, thickness=THIN, base="image")
+    refused(sb.SkinError, "no image is selected", sb.make_skin, obj, thickness=THIN, mode="paper", base="image")
 
 
 def check_missing_image_keeps_the_last_good_lookup(work):
     key = add_light()
     obj = patch()
-    sb.make_skin(obj, thickness=THIN)
+    sb.make_skin(obj, thickness=THIN, mode="paper")
     before = sb.lut(obj, depsgraph())
     image = bpy.data.images.new("Gone", 8, 1)
     image.source = "FILE"
@@ -69,7 +69,7 @@ def check_absent_core(_work):
     """Without the compiled package: words, no exception out of a handler, the last lookup stays, and back again."""
     key = add_light()
     obj = patch()
-    sb.make_skin(obj, thickness=THIN)
+    sb.make_skin(obj, thickness=THIN, mode="paper")
     before = sb.lut(obj, depsgraph())
     kept = {name: sys.modules.pop(name) for name in list(sys.modules) if name.split(".")[0] == "skinglow"}
     sys.modules["skinglow"] = None
@@ -91,7 +91,7 @@ def check_lights_that_the_core_refuses(_work):
     """A light of infinite power is a fault in words that names it; taken away, all is well."""
     key, wild = add_light("Key"), add_light("Wild")
     obj = patch()
-    sb.make_skin(obj, thickness=THIN)
+    sb.make_skin(obj, thickness=THIN, mode="paper")
     before = sb.lut(obj, depsgraph())
     wild.data.energy = float("inf")
     graph = depsgraph()
@@ -124,7 +124,7 @@ def check_open_mirrored_and_messy_meshes(_work):
 
 def check_no_lights(_work):
     obj = patch()
-    sb.make_skin(obj, thickness=THIN)
+    sb.make_skin(obj, thickness=THIN, mode="paper")
     assert_shows(obj, paper_table([]))
     assert sb.light_report(obj, depsgraph()) == []
 
@@ -133,7 +133,7 @@ def check_export_without_camera_or_folder(work):
     obj = patch()
     graph = depsgraph()
     refused(sb.SkinError, "no skin", sb.export_povray, graph, work)
-    sb.make_skin(obj, thickness=THIN)
+    sb.make_skin(obj, thickness=THIN, mode="paper")
     refused(sb.SkinError, "no camera", sb.export_povray, depsgraph(), work)
     camera_above()
     (work / "file").write_text("")

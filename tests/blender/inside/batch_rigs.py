@@ -196,7 +196,7 @@ def check_light_at_each_pixel_has_room_for_every_rig(work):
     result = sb.render_batch(work / "surface", 1, ["warm", "many", DATA / "all_kinds.json"])
     assert result.failed == (), result
     assert [e["skins"][0]["weights"] for e in manifest_of(work / "surface")] == ["SURFACE"] * 3
-    obj.skinglow.mode, obj.skinglow.weights = "PAPER", "AUTO"
+    obj.skinglow.mode, obj.skinglow.weights = "PAPER", "OBJECT"
     assert_same(before)
 
 

@@ -38,7 +38,7 @@ def studio():
             obj.data.color = color_at(rig, frame)
             obj.data.keyframe_insert("color", frame=frame)
     obj = patch(material=black_material())
-    sb.make_skin(obj, thickness=[0.0] * 4)
+    sb.make_skin(obj, thickness=[0.0] * 4, mode="paper")
     camera_above()
     scene = render_settings(4, 4)
     scene.frame_start, scene.frame_end = FRAMES[0], FRAMES[-1]

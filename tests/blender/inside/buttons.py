@@ -20,7 +20,7 @@ def check_make_update_reset_remove(_work):
     key = add_light("Key")
     obj = ball()
     obj.skinglow.unit_mm = 10.0
-    assert bpy.ops.skinglow.make() == {"FINISHED"}
+    assert bpy.ops.skinglow.make(mode="PAPER") == {"FINISHED"}
     assert obj.skinglow.enabled
     assert_fresh(obj)
     obj.skinglow.live = False
@@ -31,10 +31,12 @@ def check_make_update_reset_remove(_work):
     obj.skinglow.strength = 3.0
     assert bpy.ops.skinglow.reset() == {"FINISHED"}
     assert obj.skinglow.strength == 1.0 and obj.skinglow.live and obj.skinglow.enabled
+    assert obj.skinglow.mode == "PHYSICAL"
+    obj.skinglow.mode = "PAPER"
     assert_fresh(obj)
     obj.data.attributes["skinglow_thickness"].data[0].value = 99.0
     obj.skinglow.unit_mm = 10.0
-    assert bpy.ops.skinglow.bake() == {"FINISHED"}
+    assert bpy.ops.skinglow.measure_thickness() == {"FINISHED"}
     assert obj.data.attributes["skinglow_thickness"].data[0].value < 11.0
     assert bpy.ops.skinglow.remove() == {"FINISHED"}
     assert not obj.skinglow.enabled and not bpy.data.node_groups
@@ -44,7 +46,7 @@ def check_undo_of_each(_work):
     add_light("Key")
     name = ball().name
     bpy.ops.ed.undo_push(message="ball")
-    bpy.ops.skinglow.make("EXEC_DEFAULT", True)
+    bpy.ops.skinglow.make("EXEC_DEFAULT", True, mode="PAPER")
     assert_fresh(bpy.data.objects[name])
     bpy.ops.ed.undo()
     assert not bpy.data.objects[name].skinglow.enabled
@@ -59,7 +61,7 @@ def check_errors_in_words(_work):
     obj.select_set(True)
     bpy.context.view_layer.objects.active = obj
     try:
-        bpy.ops.skinglow.make()
+        bpy.ops.skinglow.make(mode="PAPER")
     except RuntimeError as error:
         assert "'Flat' has scale 0" in str(error)
     else:
@@ -69,7 +71,7 @@ def check_errors_in_words(_work):
 def check_export(work):
     add_light("Key")
     ball()
-    bpy.ops.skinglow.make()
+    bpy.ops.skinglow.make(mode="PAPER")
     camera_above()
     assert bpy.ops.skinglow.export_povray(directory=str(work / "pov")) == {"FINISHED"}
     assert (work / "pov" / "scene.pov").exists()
@@ -79,7 +81,7 @@ def check_ten_thousand_updates_leave_nothing(_work):
     """No datablock, no growth of what is remembered."""
     key = add_light("Key")
     obj = patch()
-    sb.make_skin(obj, thickness=[1.0] * 4)
+    sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
     names = ("images", "node_groups", "materials", "meshes", "objects", "lights", "textures", "actions")
     before = {name: len(getattr(bpy.data, name)) for name in names}
     graph = depsgraph()
@@ -96,7 +98,7 @@ def check_nothing_is_tagged_when_lights_stay(_work):
     """Editing something else computes nothing, writes nothing and so calls nothing again."""
     add_light("Key")
     obj, other = patch(), patch("Other")
-    sb.make_skin(obj, thickness=[1.0] * 4)
+    sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
     depsgraph()
     reports = []
     bpy.app.handlers.depsgraph_update_post.append(

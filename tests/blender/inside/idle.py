@@ -31,7 +31,7 @@ def add_empty(name="Empty"):
 
 def check_file_without_skins(_work):
     empty, key, obj = add_empty(), add_light(), patch()
-    sb.make_skin(obj, thickness=[1.0] * 4)
+    sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
     sb.remove_skin(obj)
     depsgraph()
     with counted_readings() as count:
@@ -41,13 +41,13 @@ def check_file_without_skins(_work):
             depsgraph()
             bpy.context.scene.frame_set(step)
         assert count == [0]
-        sb.make_skin(obj, thickness=[1.0] * 4)
+        sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
         assert count[0] > 0
 
 
 def check_edits_that_move_no_light_and_no_skin(_work):
     key, empty, plain, obj = add_light(), add_empty(), patch("Plain"), patch("Skin")
-    sb.make_skin(obj, thickness=[1.0] * 4)
+    sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
     depsgraph()
     with counted_readings() as count:
         empty.location.x = 1.0
@@ -64,7 +64,7 @@ def check_edits_that_move_no_light_and_no_skin(_work):
 def check_edits_that_move_a_light_or_a_skin(_work):
     """By themselves, by their parent, their constraint's target, an instancer or their visibility."""
     key, fill, empty, obj = add_light("Key"), add_light("Fill"), add_empty(), patch("Skin")
-    sb.make_skin(obj, thickness=[1.0] * 4)
+    sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
     key.parent = empty
     fill.constraints.new("COPY_LOCATION").target = empty
     depsgraph()

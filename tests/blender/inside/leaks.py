@@ -30,7 +30,7 @@ def check_ten_thousand_updates(_work):
     """Of a light's color and place, each seen by the handlers, each a new table."""
     add_light("Key")
     obj = patch(material=black_material())
-    sb.make_skin(obj, thickness=[0.0, 1.0, 2.0, 3.0])
+    sb.make_skin(obj, thickness=[0.0, 1.0, 2.0, 3.0], mode="paper")
     depsgraph()
     layer, key = bpy.context.view_layer, bpy.data.objects["Key"]
 

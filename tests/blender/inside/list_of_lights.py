@@ -15,7 +15,7 @@ sb.register()
 
 def skin():
     obj = patch()
-    sb.make_skin(obj, thickness=[1.0] * 4)
+    sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
     return obj
 
 
@@ -118,7 +118,7 @@ def check_a_list_for_each_skin_and_none_for_the_gone(_work):
     assert sorted(one.name for one in lists) == sorted((first.name, second.name))
     bpy.data.objects.remove(first)
     third = patch("Third")
-    sb.make_skin(third, thickness=[1.0] * 4)
+    sb.make_skin(third, thickness=[1.0] * 4, mode="paper")
     redraw(third)
     assert sorted(one.name for one in lists) == sorted((second.name, "Third"))
 

@@ -53,7 +53,7 @@ def measured(obj):
     obj.select_set(True)
     bpy.context.view_layer.objects.active = obj
     with printed() as said:
-        assert bpy.ops.skinglow.bake() == {"FINISHED"}
+        assert bpy.ops.skinglow.measure_thickness() == {"FINISHED"}
     layout = Labels()
     draw_thickness(layout, obj, bpy.context)
     return " ".join(layout.texts), said[0]

@@ -58,7 +58,7 @@ def check_paper_follows_existing_does_not(_work):
 def check_each_edit_of_a_light(_work):
     key, rim = add_light("Key"), add_light("Rim", color=(0.2, 0.4, 1.0), location=(1.0, 2.0, 0.5))
     obj = patch()
-    sb.make_skin(obj, thickness=THIN)
+    sb.make_skin(obj, thickness=THIN, mode="paper")
     assert_shows(obj, paper_table([key, rim]))
     key.data.color = (0.9, 0.1, 0.3)
     assert_shows(obj, paper_table([key, rim]))
@@ -88,22 +88,22 @@ def check_each_edit_of_a_light(_work):
 def check_settings_of_the_formula(_work):
     key = add_light(location=(0.5, 0.75, 2.0))
     obj = patch()
-    sb.make_skin(obj, thickness=THIN, attenuation=(0.5, 0.25, 2.0), size=64, max_thickness_mm=8.0)
+    sb.make_skin(obj, thickness=THIN, mode="paper", attenuation=(0.5, 0.25, 2.0), size=64, max_thickness_mm=8.0)
     assert_shows(obj, paper_table([key], size=64, thickest=8.0, coefficients=(0.5, 0.25, 2.0)))
-    sb.make_skin(obj, thickness=THIN, attenuation=(1, 0, 1), size=700, reference_point=(0.5, 0.0, 0.25))
+    sb.make_skin(obj, thickness=THIN, mode="paper", attenuation=(1, 0, 1), size=700, reference_point=(0.5, 0.0, 0.25))
     assert_shows(obj, paper_table([key], point=(0.5, 0.0, 0.25), size=700, thickest=8.0))
     obj.skinglow.reference = "BOUNDS"
     obj.location = (0.25, 0.5, 0.0)
     assert_shows(obj, paper_table([key], point=(0.25, 0.5, 0.0), size=700, thickest=8.0))
     for size in (1, 65536):
-        sb.make_skin(obj, thickness=THIN, size=size)
+        sb.make_skin(obj, thickness=THIN, mode="paper", size=size)
         assert_shows(obj, paper_table([key], point=(0.25, 0.5, 0.0), size=size, thickest=8.0))
 
 
 def check_update_says_what_and_why(_work):
     key = add_light("Key")
     obj = patch()
-    state = sb.make_skin(obj, thickness=THIN, live=False)
+    state = sb.make_skin(obj, thickness=THIN, mode="paper", live=False)
     assert state.mode == "PAPER" and state.thickness_mm == (0.0, 3.0)
     assert sb.update(depsgraph()) == []
     key.data.color = (1.0, 0.5, 0.0)

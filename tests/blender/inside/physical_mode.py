@@ -78,14 +78,14 @@ def check_base_from_an_image(_work):
     pixels[:, :, :3] = gray[None, :, None]
     image.pixels.foreach_set(pixels.ravel())
     obj = patch()
-    sb.make_skin(obj, thickness=THIN, base="image", base_image=image)
+    sb.make_skin(obj, thickness=THIN, mode="paper", base="image", base_image=image)
     expected = (gray.astype(float)[:, None] * (BLOOD + weight([key], (0, 0, 0)))).astype(np.float32)
     np.testing.assert_allclose(sb.lut(obj, depsgraph()), expected, rtol=1e-6)
 
     # Bytes of an sRGB picture are decoded: 188 is half of the light.
     coded = bpy.data.images.new("Coded", 4, 1)
     coded.pixels.foreach_set(np.tile(np.float32([188 / 255] * 3 + [1.0]), 4))
-    sb.make_skin(obj, thickness=THIN, base_image=coded)
+    sb.make_skin(obj, thickness=THIN, mode="paper", base_image=coded)
     shown = sb.lut(obj, depsgraph())
     np.testing.assert_allclose(shown, np.tile(0.5029 * (BLOOD + weight([key], (0, 0, 0))), (4, 1)), rtol=1e-3)
 
@@ -93,7 +93,7 @@ def check_base_from_an_image(_work):
 def check_base_from_the_skin(_work):
     key = add_light(location=(0.0, 0.0, 2.0))
     obj = patch()
-    sb.make_skin(obj, thickness=THIN, base="skin", preset="pale")
+    sb.make_skin(obj, thickness=THIN, mode="paper", base="skin", preset="pale")
     table = sg.recolor(sg.base_lut(sg.TISSUE_PRESETS["pale"], 256, 12.0), (1.0, 1.0, 1.0))
     gray = np.maximum(table @ (0.2126, 0.7152, 0.0722), 0.0)
     np.testing.assert_allclose(sb.lut(obj, depsgraph()), gray[:, None] * (BLOOD + weight([key], (0, 0, 0))), rtol=1e-6)

@@ -65,7 +65,7 @@ def check_same_light_coming_through(work):
 def check_lut_file_is_exact(work):
     add_light("Key", location=(0.0, 0.0, 2.0))
     obj = patch()
-    sb.make_skin(obj, thickness=[1.0] * 4)
+    sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
     camera_above()
     sb.export_povray(depsgraph(), work / "exact")
     image = bpy.data.images.load(str(work / "exact" / "lut.exr"))
@@ -82,7 +82,7 @@ def check_only_what_is_used(work):
     off = add_light("Off", location=(0.0, 0.0, 2.0))
     off.hide_viewport = True
     obj = patch()
-    sb.make_skin(obj, thickness=[1.0] * 4)
+    sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
     camera_above()
     images = len(bpy.data.images)
     files = {path.name for path in sb.export_povray(depsgraph(), work / "glow", surface=False)}
@@ -97,7 +97,7 @@ def check_only_what_is_used(work):
 
 def check_several_skins(work):
     for name in ("One", "Two"):
-        sb.make_skin(patch(name), thickness=[1.0] * 4)
+        sb.make_skin(patch(name), thickness=[1.0] * 4, mode="paper")
     camera_above()
     files = sb.export_povray(depsgraph(), work / "several")
     assert {path.parent.name for path in files} == {"One", "Two"}

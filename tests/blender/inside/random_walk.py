@@ -49,7 +49,7 @@ class Walk(SceneEdits):
     def add_skin(self):
         if len(self.skins()) < 6:
             material = self.pick([None, *self.materials()])
-            sb.make_skin(patch("Patch", location=self.place(), material=material), thickness=THIN)
+            sb.make_skin(patch("Patch", location=self.place(), material=material), thickness=THIN, mode="paper")
 
     def materials(self):
         return [m for m in bpy.data.materials if m.users and not m.library]
@@ -65,7 +65,7 @@ class Walk(SceneEdits):
         elif len(obj.material_slots) < 3:
             obj.data.materials.append(material)
         if self.random.random() < 0.5:
-            sb.make_skin(obj, thickness=THIN)
+            sb.make_skin(obj, thickness=THIN, mode="paper")
 
     def from_library(self, linked, names):
         with bpy.data.libraries.load(str(self.folder / LIBRARY), link=linked) as (_source, target):
@@ -216,7 +216,7 @@ def expected(obj, graph):
 
 def write_library(path):
     """A file with a skin and a light, from which they are appended and linked."""
-    sb.make_skin(patch("Library skin", material=black_material("Library")), thickness=THIN)
+    sb.make_skin(patch("Library skin", material=black_material("Library")), thickness=THIN, mode="paper")
     add_light("Library lamp", color=(0.2, 0.9, 0.4), location=(1.0, 1.0, 1.0))
     depsgraph()
     bpy.ops.wm.save_as_mainfile(filepath=str(path))
@@ -234,7 +234,7 @@ def check_random_walk(work):
         bpy.context.window_manager.windows[0].scene = scene
         for collection in collections:
             scene.collection.children.link(collection)
-        sb.make_skin(patch(material=black_material()), thickness=THIN)
+        sb.make_skin(patch(material=black_material()), thickness=THIN, mode="paper")
         add_light("Lamp")
         camera_above()
         render_settings(2, 2)

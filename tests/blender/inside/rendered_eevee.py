@@ -64,7 +64,7 @@ def check_batch_of_rigs(work):
     colors = {"red": (1.0, 0.2, 0.0), "blue": (0.0, 0.2, 1.0)}
     for name, color in colors.items():
         add_light(name, color=color)
-    sb.make_skin(patch(material=black_material()), thickness=[0.0] * 4)
+    sb.make_skin(patch(material=black_material()), thickness=[0.0] * 4, mode="paper")
     camera_above()
     render_settings(4, 4, "EEVEE")
     result = sb.render_batch(work / "batch", 1, {"first": "red", "second": "blue", "third": "red"})

@@ -110,7 +110,7 @@ def check_viewport_and_render_have_lights_of_their_own(work):
     view.hide_render = True
     final.hide_viewport = True
     obj = patch(material=black_material())
-    sb.make_skin(obj, thickness=[0.0] * 4)
+    sb.make_skin(obj, thickness=[0.0] * 4, mode="paper")
     camera_above()
     render_settings(4, 4).render.filepath = str(work / "own.exr")
     seen = {}
@@ -136,7 +136,7 @@ def check_viewport_and_render_have_lights_of_their_own(work):
 def check_renamed_excluded_and_linked(work):
     """Rendered: a light renamed, one in an excluded collection, a skin and a light of a library."""
     add_light("Library lamp", color=(0.0, 1.0, 0.0), location=(0.0, 0.0, 2.0))
-    sb.make_skin(patch("Library skin", size=1.0, material=black_material()), thickness=[0.0] * 4)
+    sb.make_skin(patch("Library skin", size=1.0, material=black_material()), thickness=[0.0] * 4, mode="paper")
     depsgraph()
     library = str(work / "library.blend")
     bpy.ops.wm.save_as_mainfile(filepath=library)
@@ -151,7 +151,7 @@ def check_renamed_excluded_and_linked(work):
     key = add_light("Key", color=(1.0, 0.0, 0.0))
     add_light("Left out", color=(0.0, 0.0, 1.0), collection=extra)
     own = patch("Own", size=1.0, location=(1.0, 0.0, 0.0), material=black_material("Own"))
-    sb.make_skin(own, thickness=[0.0] * 4, reference_point=(0.0, 0.0, 0.0))
+    sb.make_skin(own, thickness=[0.0] * 4, mode="paper", reference_point=(0.0, 0.0, 0.0))
     camera_above(2.0, (0.5, 0.0, 5.0))
     key.name = "Renamed"
     bpy.context.view_layer.layer_collection.children["Extra"].exclude = True
@@ -173,7 +173,7 @@ def check_view_layers_have_lights_of_their_own(work):
     scene.collection.children.link(extra)
     key, fill = add_light("Key", color=(1.0, 0.0, 0.0)), add_light("Fill", color=(0.0, 0.0, 1.0), collection=extra)
     obj = patch(material=black_material())
-    sb.make_skin(obj, thickness=[0.0] * 4)
+    sb.make_skin(obj, thickness=[0.0] * 4, mode="paper")
     second = scene.view_layers.new("Second")
     second.layer_collection.children["Extra"].exclude = True
     camera_above()

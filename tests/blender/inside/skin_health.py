@@ -105,7 +105,7 @@ def check_no_false_alarm(_work):
     obj.data.transform(Matrix.Scale(0.5, 4))
     obj.data.update()
     assert sb.health(obj) == []
-    sb.make_skin(obj, thickness=[1.0] * len(obj.data.vertices))
+    sb.make_skin(obj, thickness=[1.0] * len(obj.data.vertices), mode="paper")
     sculpt(obj)
     assert sb.health(obj) == []
 

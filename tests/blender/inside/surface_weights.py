@@ -154,7 +154,7 @@ def check_more_lights_than_terms(work):
 
 
 def check_constant_light_gives_the_picture_of_the_object_weight(work):
-    """A distant light right behind a flat patch: every pixel has the same light, and AUTO knows it."""
+    """A distant light right behind a flat patch: every pixel has the same light, and the bound of one weight is 0."""
     sun = add_light(kind="SUN", energy=3.0, color=(1.0, 0.5, 0.2), location=(0, 0, -3))
     sun.rotation_euler, sun.data.angle = (np.pi, 0.0, 0.0), 0.0
     obj = skin()
@@ -168,8 +168,8 @@ def check_constant_light_gives_the_picture_of_the_object_weight(work):
     wanted = (light * facing) @ white_table().T / (light @ white_table().T)
     np.testing.assert_allclose((surface / plain)[2:-2, 2:-2], np.broadcast_to(wanted, (12, 12, 3)), rtol=0.02)
     assert np.ptp(surface, axis=(0, 1)).max() < 1e-6 * surface.max()
-    state = sb.make_skin(obj, weights="auto")
-    assert (state.weights, state.weights_bound < 1e-3) == ("OBJECT", True), state
+    state = sb.make_skin(obj, weights="surface")
+    assert (state.weights, state.weights_bound < 1e-3) == ("SURFACE", True), state
     sun.data.type = "POINT"
     depsgraph()
     state = sb.make_skin(obj)

@@ -81,7 +81,7 @@ mesh.from_pydata([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], [], [(0, 1, 2
 obj = bpy.data.objects.new("Patch", mesh)
 bpy.context.scene.collection.objects.link(obj)
 try:
-    sb.make_skin(obj, thickness=[1.0] * 4)
+    sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
     print("RESULT skin", {{image.colorspace_settings.name for image in bpy.data.images}})
 except sb.SkinError as error:
     print("RESULT", error, len(bpy.data.images))

@@ -26,7 +26,7 @@ def ball(name="Ball", radius=0.5):
 def skin_ball():
     obj = ball()
     obj.skinglow.unit_mm = 10.0
-    bpy.ops.skinglow.make()
+    bpy.ops.skinglow.make(mode="PAPER")
     return obj
 
 
@@ -78,7 +78,7 @@ def check_make(_work):
         assert the_ball().skinglow.enabled and len(thickness_of(the_ball()))
         assert_fresh(the_ball())
 
-    do_undo_redo(bpy.ops.skinglow.make, before, after)
+    do_undo_redo(bpy.ops.skinglow.make, before, after, mode="PAPER")
 
 
 def check_remove(_work):
@@ -104,13 +104,13 @@ def check_reset(_work):
         assert sb.lut(the_ball(), depsgraph())[0, 2] > 5.0
 
     def after():
-        assert the_ball().skinglow.blood_weight[0] != 9.0
-        assert_fresh(the_ball())
+        assert the_ball().skinglow.blood_weight[0] != 9.0 and the_ball().skinglow.mode == "PHYSICAL"
+        assert 0.0 < sb.lut(the_ball(), depsgraph())[0, 2] < 1.0
 
     do_undo_redo(bpy.ops.skinglow.reset, before, after)
 
 
-def check_bake(_work):
+def check_measure_thickness(_work):
     add_light("Key")
     obj = skin_ball()
     thickness_attribute.store(obj, [3.0] * len(obj.data.vertices), unit_mm=1000.0)
@@ -121,9 +121,9 @@ def check_bake(_work):
     def after():
         np.testing.assert_allclose(thickness_of(the_ball()), 10.0, rtol=0.05)
 
-    do_undo_redo(bpy.ops.skinglow.bake, before, after)
+    do_undo_redo(bpy.ops.skinglow.measure_thickness, before, after)
     # What was measured on this geometry is known as such: making the skin again does not measure it again.
-    bpy.ops.skinglow.bake()
+    bpy.ops.skinglow.measure_thickness()
     assert not thickness_attribute.ensure_measured(the_ball(), bpy.context.scene)
 
 
@@ -183,11 +183,11 @@ def check_why_a_button_is_gray(_work):
     refused("This file has no skin yet", ops.update)
     refused("This file has no skin yet", ops.export_povray, directory="//")
     ball()
-    for operator in (ops.bake, ops.reset, ops.remove):
+    for operator in (ops.measure_thickness, ops.reset, ops.remove):
         refused("Select a skin, or create one", operator)
     ops.make()
     bpy.ops.object.mode_set(mode="EDIT")
-    for operator in (ops.make, ops.bake, ops.reset, ops.remove):
+    for operator in (ops.make, ops.measure_thickness, ops.reset, ops.remove):
         refused("Only available in Object Mode", operator)
     bpy.ops.object.mode_set(mode="OBJECT")
     refused("No folder selected", ops.export_povray)
@@ -204,7 +204,7 @@ def check_all_selected_or_none(_work):
     empty.select_set(False)
     other = ball("Other")
     obj.select_set(True)
-    bpy.ops.skinglow.make()
+    bpy.ops.skinglow.make(mode="PAPER")
     assert obj.skinglow.enabled and other.skinglow.enabled
     obj.skinglow.strength = other.skinglow.strength = 3.0
     bpy.ops.skinglow.reset()

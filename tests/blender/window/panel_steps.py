@@ -127,7 +127,7 @@ def a_canceled_measuring():
     head().skinglow.rays = 4096
     with in_view():
         bpy.ops.ed.undo_push(message="rays")
-        tell("bake began as", list(bpy.ops.skinglow.bake("INVOKE_DEFAULT")))
+        tell("bake began as", list(bpy.ops.skinglow.measure_thickness("INVOKE_DEFAULT")))
     yield from wait_for(lambda: SESSION.measuring.done > 0.0, PATIENCE, "progress")
     redraw()
     yield 0.5
@@ -149,7 +149,7 @@ def a_measuring_to_its_end():
     attribute.data.foreach_set("value", np.full(len(attribute.data), 3.0, np.float32))
     with in_view():
         bpy.ops.ed.undo_push(message="by hand")
-        bpy.ops.skinglow.bake("INVOKE_DEFAULT")
+        bpy.ops.skinglow.measure_thickness("INVOKE_DEFAULT")
     yield from wait_for(lambda: not measuring(), PATIENCE, "measuring")
     yield 0.5
     tell("measured in the window", [float(thickness().min()), float(thickness().max())])

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What handlers and timers have in common: nothing may interrupt the user's work, and no file without skins pays."""
+
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..errors import SkinError
+from ..session import SESSION
+from ..show.lut_image import GROUP_PROPERTY
+
+
+@contextmanager
+def faults_shown() -> Iterator[None]:
+    """Turns an exception into a fault that the panel shows."""
+    try:
+        yield
+    except (SkinError, ValueError) as error:
+        SESSION.faults["*"] = str(error)
+    except Exception as error:  # noqa: BLE001  nothing may interrupt the user's work
+        SESSION.faults["*"] = f"Unexpected {type(error).__name__}: {error} (details in the system console)"
+        traceback.print_exc()
+
+
+def guarded(function: Callable[..., None]) -> Callable[..., None]:
+    """A handler that never raises. Blender passes as many arguments as the function has positional ones: two."""
+
+    def handler(first: Any, second: Any = None) -> None:  # noqa: ANN401  differs between handlers and versions
+        with faults_shown():
+            function(first, second)
+
+    handler.__name__ = function.__name__
+    return persistent(handler)
+
+
+def has_skins() -> bool:
+    """Whether the file has, or had since the last update, a skin; costs nothing in those that have none."""
+    return bool(SESSION.owners or SESSION.faults) or any(GROUP_PROPERTY in tree for tree in bpy.data.node_groups)
