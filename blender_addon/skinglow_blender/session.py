@@ -44,8 +44,8 @@ class Session:
         #: Skin to the (updates, scene, view layer) of its filled list of lights, and of the list that was asked for.
         self.filled_lists: dict[str, tuple[int, str, str]] = {}
         self.requested_lists: dict[str, tuple[int, str, str]] = {}
-        #: Skin to the signature of the table in its thumbnail.
-        self.thumbnails: dict[str, tuple] = {}
+        #: Skin to the signature of the table in its thumbnail, and the thickness at the thumbnail's right end, mm.
+        self.thumbnails: dict[str, tuple[tuple, float]] = {}
         #: The thickness measurement that runs in a thread.
         self.measuring: Measuring | None = None
 

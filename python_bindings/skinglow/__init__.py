@@ -61,6 +61,14 @@ from skinglow._core import (
     transmittance,
     unnormalized_power_factor,
 )
+from skinglow._for_hosts import (
+    diffuse_radiance,
+    light_rotation,
+    luminance,
+    stratified_indices,
+    uniform_scale,
+    visible_entries,
+)
 from skinglow._occlusion import Occluders, VisibleFraction
 from skinglow._renamed import __getattr__ as __getattr__
 from skinglow._shape import LitShape, Shape, ShapePart
@@ -131,6 +139,13 @@ __all__ = [
     "read_light_rig",
     # The light at each point of a surface, for materials
     "SurfaceLighting",
+    # For hosts
+    "diffuse_radiance",
+    "light_rotation",
+    "luminance",
+    "stratified_indices",
+    "uniform_scale",
+    "visible_entries",
     # POV-Ray
     "povray_files",
     # Meshes

@@ -18,6 +18,7 @@ import bpy  # noqa: E402
 import numpy as np  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
 from inside.scenes import add_light, paper_table, patch  # noqa: E402
+from skinglow_blender.session import SESSION  # noqa: E402
 
 SECONDS = 60
 
@@ -46,6 +47,30 @@ def steps():
         while not np.allclose(sb.lut(obj, layers[which].depsgraph or layers[0].depsgraph), expected, rtol=1e-6):
             assert time.monotonic() < until, f"{layers[which].name} shows another layer's lookup"
             yield
+    yield from two_windows(obj, layers, paper_table(lights))
+
+
+def two_windows(obj, layers, of_first):
+    """Two windows on two view layers come to rest, and the first decides what both show, whichever is edited."""
+    bpy.ops.wm.window_new_main()
+    yield
+    first, second = bpy.context.window_manager.windows
+    first.view_layer, second.view_layer = layers
+    for _ in range(10):
+        yield
+    for edited in (None, bpy.data.objects["Key"]):
+        if edited is not None:
+            edited.location.x += 1e-3
+            of_first = None
+            for _ in range(10):
+                yield
+        updates = SESSION.updates
+        for _ in range(20):
+            yield
+        assert SESSION.updates == updates, f"{SESSION.updates - updates} updates with nothing edited"
+        if of_first is not None:
+            np.testing.assert_allclose(sb.lut(obj, layers[0].depsgraph), of_first, rtol=1e-6)
+    assert not SESSION.faults, SESSION.faults
 
 
 def tick():

@@ -64,7 +64,9 @@ def _add(
     if light.kind == "SPOT" and light.spot_cosine != blender_version.SPOT_HAS_COSINE:
         has = "have" if blender_version.SPOT_HAS_COSINE else "lack"
         notes.append(f"light '{name}': spots of this Blender version {has} the cosine falloff (spot_cosine)")
-    obj.matrix_world = Matrix.Translation(Vector(light.position) + offset) @ _rotation(light).to_4x4()
+    obj.matrix_world = (
+        Matrix.Translation(Vector(light.position) + offset) @ Matrix(core().light_rotation(light).tolist()).to_4x4()
+    )
     scene.collection.objects.link(obj)
 
 
@@ -91,17 +93,3 @@ def _energy(light: Any) -> float:  # noqa: ANN401
         if light.kind == "SUN":
             return light.power / sg.legacy_sun_power_factor(light.sun_angle)
     return light.power
-
-
-def _rotation(light: Any) -> Matrix:  # noqa: ANN401
-    """The rotation that points a Blender light, which shines along its -Z axis, in the light's direction."""
-    z_axis = -Vector(light.direction)
-    if light.kind == "POINT" or z_axis.length == 0.0:
-        return Matrix.Identity(3)
-    z_axis.normalize()
-    x_axis = Vector(light.tangent) if light.kind == "AREA" else Vector((1.0, 0.0, 0.0))
-    x_axis -= x_axis.dot(z_axis) * z_axis
-    if x_axis.length < 1e-6:  # the tangent is parallel to the direction: use any other
-        x_axis = z_axis.orthogonal()
-    x_axis.normalize()
-    return Matrix((x_axis, z_axis.cross(x_axis), z_axis)).transposed()

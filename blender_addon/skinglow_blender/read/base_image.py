@@ -10,14 +10,6 @@ from ..errors import SkinError, core
 from ..session import SESSION
 from .image_pixels import linear_pixels
 
-#: Rec.709 luminance (ITU-R BT.709-6, item 3.2 of part 1).
-LUMINANCE = np.array((0.2126, 0.7152, 0.0722))
-
-
-def brightness(colors: np.ndarray) -> np.ndarray:
-    """Luminance of linear Rec.709 colors (n, 3), clamped at 0, (n,)."""
-    return np.maximum(colors @ LUMINANCE, 0.0)
-
 
 def base_of_image(key: tuple) -> Any:  # noqa: ANN401  a skinglow.BaseLut
     """Mean linear brightness of each column. Read once: forget SESSION.base_images after an image was painted."""
@@ -34,6 +26,6 @@ def base_of_image(key: tuple) -> Any:  # noqa: ANN401  a skinglow.BaseLut
     except SkinError as error:
         raise SkinError(f"The base lookup {error}") from error
     colors = np.repeat(pixels[:, :, :1], 3, axis=2) if pixels.shape[2] < 3 else pixels[:, :, :3]
-    base = core().BaseLut(brightness(colors.astype(np.float64).mean(axis=0)), max_thickness_mm)
+    base = core().BaseLut(core().luminance(colors.astype(np.float64).mean(axis=0)), max_thickness_mm)
     SESSION.base_images[key] = base
     return base

@@ -9,6 +9,8 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
+from ..errors import core
+
 #: Mesh properties stored when its thickness was measured: edge length of its unit cube in the world, scene units;
 #: number of its vertices, and index and position of some; millimeters per scene unit; bounding cone of its normals in
 #: object space (axis, half angle in radians).
@@ -17,8 +19,6 @@ MEASURED_SAMPLES = "skinglow_samples"
 MEASURED_UNIT = "skinglow_unit_mm"
 MEASURED_CONE = "skinglow_normal_cone"
 SAMPLES = 8
-#: Relative difference up to which distances between vertices have changed by one factor.
-SAME_FACTOR = 1e-4
 
 
 def samples_of(mesh: bpy.types.Mesh) -> list[float]:
@@ -53,8 +53,4 @@ def mesh_scale(mesh: bpy.types.Mesh) -> float | None:
     # Mostly nothing was changed.
     if now == then:
         return 1.0
-    pairs = zip(zip(then, then[1:], strict=False), zip(now, now[1:], strict=False), strict=True)
-    factors = [(c - d).length / (a - b).length for (a, b), (c, d) in pairs if (a - b).length > 0.0]
-    if not factors or max(factors) == 0.0 or max(factors) - min(factors) > SAME_FACTOR * max(factors):
-        return None
-    return max(factors)
+    return core().uniform_scale(then, now)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sample points on a skin's far side, where light enters."""
 
-from functools import lru_cache
 from typing import NamedTuple
 
 import bpy
@@ -39,7 +38,7 @@ def far_side_of(obj: bpy.types.Object, matrix: Matrix, skin: Skin) -> FarSide:
         thickness_mm *= scale_since_measured(original, skin.world_size)
         thin = np.flatnonzero(known & (thickness_mm < skin.base[2]))
         candidates = thin if len(thin) else np.flatnonzero(known)
-        chosen = candidates[_sample_indices(len(candidates))]
+        chosen = candidates[core().stratified_indices(len(candidates), MAX_SAMPLES)]
         # One by one: reading all normals of a large mesh would take longer than tracing the rays.
         vertices = np.array([mesh.vertices[i].co for i in chosen.tolist()], np.float64)
         normals = np.array([mesh.vertices[i].normal for i in chosen.tolist()], np.float64)
@@ -48,17 +47,3 @@ def far_side_of(obj: bpy.types.Object, matrix: Matrix, skin: Skin) -> FarSide:
     # Normals transform by the inverse transpose.
     world_normals = normals @ np.array(matrix.to_3x3().inverted_safe(), np.float64)
     return FarSide(*core().far_side(world, world_normals, depth))
-
-
-@lru_cache(maxsize=64)
-def _sample_indices(count: int) -> np.ndarray:
-    """Indices of at most MAX_SAMPLES of `count` vertices, the same each time.
-
-    Stratified: one random index per stratum. Neighbors in a mesh's order mostly are neighbors in space, while equal
-    steps could follow a grid's columns. Half the error of independent random samples (measured on a scanned head).
-    """
-    if count <= MAX_SAMPLES:
-        return np.arange(count)
-    return ((np.arange(MAX_SAMPLES) + np.random.default_rng(1).random(MAX_SAMPLES)) * count / MAX_SAMPLES).astype(
-        np.int64
-    )

@@ -15,6 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..errors import core
+
 #: Maximum number of terms (lights or tiles of area lights) of each kind that a material evaluates per pixel.
 MAX_TERMS = 8
 #: Custom property of a skin's node group: entries, plain terms, terms with a profile, has a world (Layout).
@@ -98,7 +100,7 @@ def surface_row(
 
     columns       (size, 3, 3): the three columns of M(d), each a color, for each entry
     weight        (3,): the object's weight, used everywhere if there is no lighting
-    lighting      a skinglow.SurfaceLighting that fits the layout; divided by pi here, as light leaves skin diffusely
+    lighting      a skinglow.SurfaceLighting that fits the layout; its irradiance becomes radiance here
     depth_per_mm  scene units per millimeter of the thickness attribute
     """
     row = np.ones((layout.width, 4), np.float32)
@@ -118,9 +120,9 @@ def surface_row(
         row[layout.constant, :3] = 0.0
         row[layout.angular : layout.angular + 4, :3] = lighting.angular
         if layout.world:
-            row[layout.polynomial : layout.terms, :3] = lighting.polynomial / np.pi
+            row[layout.polynomial : layout.terms, :3] = core().diffuse_radiance(lighting.polynomial)
         terms, plain = lighting.terms, lighting.plain_terms
-        terms[:, 2, :3] /= np.pi
+        terms[:, 2, :3] = core().diffuse_radiance(terms[:, 2, :3])
         slots[:plain] = terms[:plain]
         slots[layout.plain : layout.plain + len(terms) - plain] = terms[plain:]
     return row
@@ -129,4 +131,5 @@ def surface_row(
 def shown_colors(row: np.ndarray, size: int, layout: Layout) -> np.ndarray:
     """The lookup (size, 3) at the object's weight, float32, from the row of a skin that is lit per pixel."""
     columns = row[: layout.constant, :3].reshape(3, layout.entries, 3)[:, :size].astype(np.float64)
-    return np.einsum("jnc,j->nc", columns, row[layout.object, :3].astype(np.float64)).astype(np.float32)
+    base = core().BaseLut(columns.transpose(1, 2, 0), 1.0)
+    return core().recolor(base, row[layout.object, :3]).astype(np.float32)

@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Computes the table that a skin shows from its settings, lights and world, by calls to the core."""
 
-import math
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..errors import SkinError, core
-from ..read.base_image import base_of_image, brightness
+from ..read.base_image import base_of_image
 from ..read.scene_lights import SceneLight, make_light
 from ..read.scene_reading import Skin
 from ..read.scene_world import World
@@ -150,7 +149,7 @@ def compute_table(skin: Skin, lights: list[SceneLight], world: World | None, cap
             lighting = _lighting(skin, core_lights, world, capacity)
             far = frozenset(core_lights[i].name for i in lighting.far_lights)
         # Light leaves the skin diffusely: radiance is radiant exitance over pi.
-        weight = irradiance / math.pi
+        weight = sg.diffuse_radiance(irradiance)
     colors = sg.recolor(base, weight)
     if max(colors.max(), -colors.min()) > BRIGHTEST:
         raise SkinError(f"{skin.name}: the lookup exceeds the range of a float image: reduce the power of the lights")
@@ -203,4 +202,4 @@ def _computed_base(key: tuple) -> Any:  # noqa: ANN401
     base = sg.base_lut(tissue, size, max_thickness_mm)
     if kind == "TISSUE":
         return base
-    return sg.BaseLut(brightness(sg.recolor(base, (1.0, 1.0, 1.0))), max_thickness_mm)
+    return sg.BaseLut(sg.luminance(sg.recolor(base, (1.0, 1.0, 1.0))), max_thickness_mm)

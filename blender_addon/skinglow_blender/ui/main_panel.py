@@ -29,11 +29,11 @@ class _Main:
             return
         _draw_faults(layout, obj, context)
         row = layout.row()
-        icon = icon_of(obj, context.view_layer.depsgraph)
+        icon, thickness_mm = icon_of(obj, context.view_layer.depsgraph)
         if icon:
             row.template_icon(icon_value=icon, scale=3.0)
         column = row.column(align=True)
-        column.label(text=f"0 to {obj.skinglow.max_thickness_mm:.4g} mm")
+        column.label(text=f"0 to {thickness_mm:.3g} mm" if icon else "No lookup yet")
         column.prop(obj.skinglow, "live", toggle=True)
         column.operator("skinglow.update", text="Update Now")
 

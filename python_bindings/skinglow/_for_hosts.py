@@ -1,0 +1,82 @@
+"""Small computations that a host such as Blender needs around tables, meshes and lights."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+if TYPE_CHECKING:
+    from skinglow._core import Light
+
+#: Rec.709 luminance (ITU-R BT.709-6, item 3.2 of part 1).
+LUMINANCE = np.array((0.2126, 0.7152, 0.0722))
+#: Seed of `stratified_indices`: any, but the same each time.
+SEED = 1
+#: Relative difference up to which distances have changed by one factor: single precision over the size of a mesh.
+SAME_FACTOR = 1e-4
+
+
+def luminance(colors: ArrayLike) -> NDArray[np.float64]:
+    """Luminance of linear Rec.709 colors (..., 3), (...), at least 0 (ITU-R BT.709-6)."""
+    return np.maximum(np.asarray(colors, np.float64) @ LUMINANCE, 0.0)
+
+
+def diffuse_radiance(exitance: ArrayLike) -> NDArray[np.float64]:
+    """Radiance, W/(m^2 sr), of light that leaves a surface diffusely (Lambert's cosine law): exitance, W/m^2, / pi."""
+    return np.asarray(exitance, np.float64) / np.pi
+
+
+def visible_entries(table: ArrayLike, threshold: float = 1.0 / 255.0) -> int:
+    """Number of entries of a table (size, 3), thin skin first, up to the last that a picture shows; at least 1.
+
+    threshold  the brightest channel from which an entry is visible, as a fraction of the table's brightest
+    """
+    brightest = np.asarray(table, np.float64).max(axis=1)
+    visible = np.flatnonzero(brightest > threshold * max(brightest.max(), 0.0))
+    return int(visible[-1]) + 1 if len(visible) else 1
+
+
+def stratified_indices(count: int, samples: int) -> NDArray[np.int64]:
+    """Indices of at most `samples` of `count` elements, ascending, the same each time; all of them if there are fewer.
+
+    One random index per stratum. Neighbors in a mesh's order mostly are neighbors in space, while equal steps could
+    follow a grid's columns. Half the error of independent random samples (measured on a scanned head).
+    """
+    if count <= samples:
+        return np.arange(count)
+    within = np.random.default_rng(SEED).random(samples)
+    return ((np.arange(samples) + within) * count / samples).astype(np.int64)
+
+
+def uniform_scale(before: ArrayLike, after: ArrayLike) -> float | None:
+    """Factor by which points were scaled, whatever else turned and moved them as a whole.
+
+    before, after  (n, 3)
+    Returns None if no one factor explains the distances between successive points, or if there are none.
+    """
+    then, now = (np.linalg.norm(np.diff(np.asarray(points, np.float64), axis=0), axis=1) for points in (before, after))
+    apart = then > 0.0
+    if not apart.any():
+        return None
+    factors = now[apart] / then[apart]
+    largest = float(factors.max())
+    return largest if largest > 0.0 and largest - factors.min() <= SAME_FACTOR * largest else None
+
+
+def light_rotation(light: "Light") -> NDArray[np.float64]:
+    """Rotation (3, 3) of a light that shines along its own -z axis, with its width along x; columns are its axes.
+
+    A point light, which has no direction, is not rotated.
+    """
+    z_axis = -np.asarray(light.direction, np.float64)
+    if light.kind == "POINT" or not z_axis.any():
+        return np.eye(3)
+    z_axis /= np.linalg.norm(z_axis)
+    wanted = light.tangent if light.kind == "AREA" else (1.0, 0.0, 0.0)
+    # A tangent along the direction says nothing: take the axis that is farthest from it.
+    for x_axis in (np.asarray(wanted, np.float64), np.eye(3)[np.argmin(np.abs(z_axis))]):
+        x_axis = x_axis - (x_axis @ z_axis) * z_axis
+        if np.linalg.norm(x_axis) > 1e-6:
+            break
+    x_axis /= np.linalg.norm(x_axis)
+    return np.column_stack((x_axis, np.cross(z_axis, x_axis), z_axis))
