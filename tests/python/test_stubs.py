@@ -96,6 +96,10 @@ def test_package_exports_every_name_once() -> None:
     public = {name for name in vars(core) if is_public(name)} | {
         "__version__",
         "ThicknessReport",
+        "diffuse_radiance",
+        "light_rotation",
+        "luminance",
+        "stratified_indices",
         "thickness",
         "thickness_report",
         "Occluders",
@@ -103,6 +107,8 @@ def test_package_exports_every_name_once() -> None:
         "LitShape",
         "Shape",
         "ShapePart",
+        "uniform_scale",
+        "visible_entries",
     }
     assert sorted(imported) == sorted(ast.literal_eval(exported.value)) == sorted(public)
 
