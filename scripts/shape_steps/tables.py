@@ -17,8 +17,6 @@ from truths import Lit
 Result = TypeVar("Result")
 CELLS_MM = (0.8, 0.5)
 REPEATS = 5
-#: Ears are thinner; with the default of 25 mm most of a head's skin would be solved with them.
-MAX_THICKNESS_MM = 12.0
 #: From the ear's center: what is farther lights no vertex that counts.
 NEAR_MM = 60.0
 
@@ -33,7 +31,6 @@ def shape_of(lit: Lit, cell_mm: float, threads: int = 0, **asked: np.ndarray) ->
         refractive_index=lit.case.refractive_index,
         surface=lit.case.surface,
         cell_mm=cell_mm,
-        max_thickness_mm=MAX_THICKNESS_MM,
         threads=threads,
         **asked,
     )

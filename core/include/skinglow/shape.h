@@ -53,8 +53,8 @@ constexpr double max_shape_refractive_index = 3;
 struct ShapeOptions {
     double unit_mm = 1.0;  ///< length of one unit of the vertices, mm; finite, above 0
     double cell_mm = 0.8;  ///< edge of the cells that light is solved on, mm; 0.5 is final quality
-    /// Where the flesh is thicker, mm, no light is taken to come through: it has the exitance of a
-    /// half-space.
+    /// Where the flesh is thicker, mm, or light falls by exp(-5) through it, none is taken to come through: it
+    /// has the exitance of a half-space.
     double max_thickness_mm = 25.0;
     SurfaceFinish surface = SurfaceFinish::rough;
     int threads = 0;  ///< 0: one for each processor. The result does not depend on it.

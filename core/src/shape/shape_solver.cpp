@@ -11,6 +11,8 @@ namespace {
 /// Flesh about a thin site counts up to this many lengths over which the least absorbed light falls to 1/e.
 constexpr double margin_in_decays = 2;
 constexpr double margin_in_cells = 4;
+/// Through flesh that is thicker than this many of these lengths nothing comes.
+constexpr double thickness_in_decays = 5;
 /// Cells through the thin regions of a part, at least; and where cells are longer than a mean free path. Not
 /// below a part of the cell that is asked for.
 constexpr double cells_through = 1.2;
@@ -71,9 +73,10 @@ ShapeSolver::ShapeSolver(const MeshView& mesh, std::span<const glm::dvec3> point
     const auto thickness = site_thickness(surface_, sites_, options.threads, [&](std::size_t sites) {
         if (done) done(static_cast<double>(sites) / count);
     });
-    is_thin_.assign(sites_.sites().size(), 0);
-    for (ThinPart& part : thin_parts(body_, sites_, thickness, options.max_thickness_mm, margin_)) {
-        for (const std::uint32_t s : part.sites) is_thin_[s] = 1;
+    is_solved_.assign(sites_.sites().size(), 0);
+    const double max_thickness = std::min(options.max_thickness_mm, thickness_in_decays / medium.min_decay());
+    for (ThinPart& part : thin_parts(body_, sites_, thickness, max_thickness, margin_)) {
+        for (std::size_t i = 0; i < part.sites.size(); ++i) is_solved_[part.sites[i]] = part.weight[i] == 1;
         parts_.push_back(std::make_unique<LazyPart>());
         parts_.back()->part = std::move(part);
     }
@@ -98,7 +101,7 @@ const VertexRows& ShapeSolver::vertex_rows(const LazyPart& part) const {
     return part.vertices.get([&] {
         const PartSolver& solver = solver_of(part);
         VertexRows rows;
-        for (const std::uint32_t v : part.part.vertices) {
+        for (const std::uint32_t v : part.part.own_vertices) {
             if (reentry().seen()[v] == 0) continue;
             const std::uint32_t s = vertex_sites().site_of()[v];
             if (solver.covers(vertex_sites().sites()[s])) rows.sites.push_back(s);
@@ -126,9 +129,9 @@ std::vector<std::uint8_t> ShapeSolver::wanted_vertices(bool reentries) const {
             for (const std::uint32_t v : part->part.vertices) wanted[v] = 1;
         }
     }
-    for (std::size_t s = 0; s < is_thin_.size(); ++s) {
+    for (std::size_t s = 0; s < is_solved_.size(); ++s) {
         const Site& site = sites_.sites()[s];
-        if (is_thin_[s] != 0 || !site.on_surface) continue;
+        if (is_solved_[s] != 0 || !site.on_surface) continue;
         for (int k = 0; k < 3; ++k) wanted[body_.triangles()[site.point.triangle].corners[k]] = 1;
     }
     if (reentries) {
@@ -190,7 +193,8 @@ void ShapeSolver::solve_part(const LazyPart& part, std::span<const Lanes> light,
     });
     for (std::size_t i = 0; i < out.size(); ++i) {
         Lanes& of_site = of_sites[sites[i]];
-        of_site = of_site * (Lanes::all(1) - is_solved) + out[i] * is_solved;
+        const Lanes weight = is_solved * part.part.weight[i];
+        of_site = of_site * (Lanes::all(1) - weight) + out[i] * weight;
     }
 }
 

@@ -71,8 +71,8 @@ class ShapeSolver {
     LaneMedium medium_;
     double margin_;
     std::vector<std::unique_ptr<LazyPart>> parts_;
-    std::vector<std::uint8_t> is_thin_;  ///< one per site
-    Lazy<SurfaceSites> vertex_sites_;    ///< where the sites are points
+    std::vector<std::uint8_t> is_solved_;  ///< one per site: no half-space is in it
+    Lazy<SurfaceSites> vertex_sites_;      ///< where the sites are points
     Lazy<Reentry> reentry_;
 };
 

@@ -7,13 +7,12 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
-#include <unordered_map>
-#include <unordered_set>
 
 #include "geometry/vector.h"
-#include "geometry/weld.h"
 #include "numerics/parallel_blocks.h"
 #include "rays/direction_sampling.h"
+#include "shape/site_groups.h"
+#include "shape/space_blocks.h"
 
 namespace skinglow::detail {
 namespace {
@@ -21,36 +20,24 @@ namespace {
 constexpr int thickness_rays = 9;
 constexpr int rays_below = 3;  ///< that are shorter than the thickness: light takes the short ways
 constexpr double cone_half_angle = 25 * std::numbers::pi / 180;
+/// Sites within a margin of thin ones count, up to this part of it in full.
+constexpr double full_weight = 0.5;
 
-/// Sites by cubes of space.
-class Blocks {
-  public:
-    Blocks(double edge, const glm::vec3& low) : edge_(edge), low_(low) {}
-
-    glm::dvec3 key(const glm::vec3& p) const { return glm::floor(glm::dvec3(p - low_) / edge_); }
-
-    void add(const glm::vec3& p, std::uint32_t item) {
-        std::vector<std::uint32_t>& items = of_[key(p)];
-        if (items.empty() || items.back() != item) items.push_back(item);
+float thickness_of(const FleshSurface& surface, const Site& site, const std::vector<glm::dvec3>& directions) {
+    const glm::dmat3 frame = frame_around(-glm::normalize(glm::dvec3(site.normal)));
+    const glm::vec3 origin = site.position - site.normal * surface.gap();
+    std::array<float, thickness_rays> lengths{};
+    for (std::size_t r = 0; r < lengths.size(); ++r) {
+        const auto hit = surface.nearest(origin, frame * directions[r], 0.0F);
+        lengths[r] = hit ? hit->distance : std::numeric_limits<float>::infinity();
     }
+    std::nth_element(lengths.begin(), lengths.begin() + rays_below, lengths.end());
+    return lengths[rays_below];
+}
 
-    /// Whether this is the first call for a block.
-    bool visit_once(const glm::dvec3& key) { return visited_.insert(key).second; }
-
-    std::vector<std::uint32_t>* find(const glm::dvec3& key) {
-        const auto found = of_.find(key);
-        return found == of_.end() ? nullptr : &found->second;
-    }
-
-  private:
-    struct Hash {
-        std::size_t operator()(const glm::dvec3& v) const { return hash_of(v); }
-    };
-    double edge_;
-    glm::vec3 low_;
-    std::unordered_map<glm::dvec3, std::vector<std::uint32_t>, Hash> of_;
-    std::unordered_set<glm::dvec3, Hash> visited_;
-};
+bool is_thin(const SiteThickness& thickness, double max_thickness) {
+    return static_cast<double>(std::min(thickness.along_normal, thickness.to_light)) < max_thickness;
+}
 
 /// Parts along an edge of a triangle that is larger than a block.
 constexpr int max_steps = 300;
@@ -65,71 +52,9 @@ std::vector<glm::vec3> triangle_points(const Body& body, const BodyTriangle& t, 
     return points;
 }
 
-template <typename Visit>
-void visit_neighborhood(Blocks& blocks, const glm::dvec3& key, const Visit& visit) {
-    for (int n = 0; n < 27; ++n) {
-        const glm::dvec3 next = key + glm::dvec3(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
-        if (auto* items = blocks.find(next)) visit(next, *items);
-    }
-}
-
-/// Sites that are thin, and those about them: a crease between thin flesh and thick is lit by the thin one
-/// however deep the flesh is below it. Not 0, one per site.
-std::vector<std::uint8_t> thin_and_about(const SurfaceSites& sites, const std::vector<float>& thickness,
-                                         double max_thickness, double margin, const glm::vec3& low) {
-    // About means in the same or a neighboring block: half the margin to all of it away.
-    Blocks thin(0.5 * margin, low);
-    for (std::uint32_t i = 0; i < thickness.size(); ++i) {
-        if (static_cast<double>(thickness[i]) < max_thickness) thin.add(sites.sites()[i].position, i);
-    }
-    std::vector<std::uint8_t> result(thickness.size(), 0);
-    for (std::uint32_t i = 0; i < thickness.size(); ++i) {
-        const Site& site = sites.sites()[i];
-        if (!site.on_surface) continue;
-        visit_neighborhood(thin, thin.key(site.position),
-                           [&](const glm::dvec3&, const std::vector<std::uint32_t>&) { result[i] = 1; });
-    }
-    return result;
-}
-
-}  // namespace
-
-std::vector<float> site_thickness(const FleshSurface& surface, const SurfaceSites& sites, int threads,
-                                  const SitesDone& done) {
-    const auto directions = cone_directions(thickness_rays, cone_half_angle);
-    std::vector<float> thickness(sites.sites().size(), std::numeric_limits<float>::infinity());
-    const auto work = [&](std::size_t begin, std::size_t end) {
-        std::array<float, thickness_rays> lengths;
-        for (std::size_t i = begin; i < end; ++i) {
-            const Site& site = sites.sites()[i];
-            if (!site.on_surface || site.normal == glm::vec3(0.0F)) continue;
-            const glm::dmat3 frame = frame_around(-glm::normalize(glm::dvec3(site.normal)));
-            const glm::vec3 origin = site.position - site.normal * surface.gap();
-            for (std::size_t r = 0; r < lengths.size(); ++r) {
-                const auto hit = surface.nearest(origin, frame * directions[r], 0.0F);
-                lengths[r] = hit ? hit->distance : std::numeric_limits<float>::infinity();
-            }
-            std::nth_element(lengths.begin(), lengths.begin() + rays_below, lengths.end());
-            thickness[i] = lengths[rays_below];
-        }
-    };
-    for_each_block(thickness.size(), threads, work, done, 512);
-    return thickness;
-}
-
-std::vector<ThinPart> thin_parts(const Body& body, const SurfaceSites& sites,
-                                 const std::vector<float>& thickness, double max_thickness, double margin) {
-    glm::vec3 low(0.0F);
-    for (const glm::vec3& p : body.positions()) low = glm::min(low, p);
-    Blocks thin(margin, low);
-    Blocks vertices(margin, low);
-    const std::vector<std::uint8_t> counts = thin_and_about(sites, thickness, max_thickness, margin, low);
-    const auto is_thin = [&](std::size_t i) { return counts[i] != 0; };
-    for (std::uint32_t i = 0; i < thickness.size(); ++i) {
-        if (!is_thin(i)) continue;
-        for (const glm::vec3& p : sites.spread(body, sites.sites()[i], static_cast<float>(margin)))
-            thin.add(p, i);
-    }
+/// The vertices whose light matters somewhere, by blocks of a margin.
+SpaceBlocks vertices_by_light(const Body& body, double margin) {
+    SpaceBlocks vertices(margin);
     for (std::uint32_t v = 0; v < body.welded_of().size(); ++v)
         vertices.add(body.positions()[body.welded_of()[v]], v);
     // A large triangle brings light from corners that may be far away.
@@ -145,38 +70,115 @@ std::vector<ThinPart> thin_parts(const Body& body, const SurfaceSites& sites,
             break;
         }
     }
-    std::vector<std::uint8_t> seen(thickness.size(), 0);
-    std::vector<ThinPart> parts;
-    for (std::uint32_t first = 0; first < thickness.size(); ++first) {
-        if (seen[first] != 0 || !is_thin(first)) continue;
-        ThinPart part;
-        std::vector<glm::dvec3> open{thin.key(sites.sites()[first].position)};
-        thin.visit_once(open.front());
-        for (std::size_t next = 0; next < open.size(); ++next) {
-            const glm::dvec3 key = open[next];
-            for (const std::uint32_t i : *thin.find(key)) {
-                if (seen[i] != 0) continue;
-                seen[i] = 1;
-                part.sites.push_back(i);
-            }
-            visit_neighborhood(thin, key, [&](const glm::dvec3& other, const std::vector<std::uint32_t>&) {
-                if (thin.visit_once(other)) open.push_back(other);
-            });
-            visit_neighborhood(vertices, key,
-                               [&](const glm::dvec3&, const std::vector<std::uint32_t>& items) {
-                                   part.vertices.insert(part.vertices.end(), items.begin(), items.end());
-                               });
-        }
-        std::sort(part.sites.begin(), part.sites.end());
-        std::vector<float> sorted;
-        for (const std::uint32_t i : part.sites) sorted.push_back(thickness[i]);
-        const auto twentieth = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 20);
-        std::nth_element(sorted.begin(), twentieth, sorted.end());
-        part.thin_mm = static_cast<double>(*twentieth);
-        std::sort(part.vertices.begin(), part.vertices.end());
-        part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()), part.vertices.end());
-        parts.push_back(std::move(part));
+    return vertices;
+}
+
+/// Of each site, how much a solution about the thin ones counts: a crease between thin flesh and thick is
+/// lit by the thin one however deep the flesh is below it, and farther on the light fades.
+std::vector<float> site_weights(const SurfaceSites& sites, const std::vector<SiteThickness>& thickness,
+                                double max_thickness, double margin) {
+    NearestDistance to_thin(margin);
+    for (std::size_t i = 0; i < thickness.size(); ++i) {
+        if (is_thin(thickness[i], max_thickness)) to_thin.add(sites.sites()[i].position);
     }
+    std::vector<float> weights(thickness.size(), 0.0F);
+    for (std::size_t i = 0; i < thickness.size(); ++i) {
+        const Site& site = sites.sites()[i];
+        if (!site.on_surface) continue;
+        if (is_thin(thickness[i], max_thickness)) {
+            weights[i] = 1;
+            continue;
+        }
+        const double left = (1 - to_thin(site.position) / margin) / (1 - full_weight);
+        weights[i] = static_cast<float>(std::clamp(left, 0.0, 1.0));
+    }
+    return weights;
+}
+
+ThinPart make_part(const Body& body, const SurfaceSites& sites, std::vector<std::uint32_t> group,
+                   const std::vector<SiteThickness>& thickness, const std::vector<float>& weights,
+                   const SpaceBlocks& vertices, double margin) {
+    ThinPart part;
+    part.sites = std::move(group);
+    std::sort(part.sites.begin(), part.sites.end());
+    SpaceBlocks::Keys about;
+    std::vector<float> sorted;
+    for (const std::uint32_t i : part.sites) {
+        part.weight.push_back(weights[i]);
+        sorted.push_back(thickness[i].along_normal);
+        for (const glm::vec3& p : sites.spread(body, sites.sites()[i], static_cast<float>(margin))) {
+            if (!about.insert(vertices.key(p)).second) continue;
+            vertices.visit_about(vertices.key(p),
+                                 [&](const glm::dvec3&, const std::vector<std::uint32_t>& items) {
+                                     part.vertices.insert(part.vertices.end(), items.begin(), items.end());
+                                 });
+        }
+    }
+    const auto twentieth = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 20);
+    std::nth_element(sorted.begin(), twentieth, sorted.end());
+    part.thin_mm = static_cast<double>(*twentieth);
+    std::sort(part.vertices.begin(), part.vertices.end());
+    part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()), part.vertices.end());
+    return part;
+}
+
+/// Gives each vertex to the part that it is nearest to.
+void share_vertices(const Body& body, const SurfaceSites& sites, double margin,
+                    std::vector<ThinPart>& parts) {
+    const std::size_t count = body.welded_of().size();
+    std::vector<double> least(count, std::numeric_limits<double>::infinity());
+    std::vector<std::size_t> owner(count, parts.size());
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        NearestDistance to_part(margin);
+        for (const std::uint32_t i : parts[p].sites) {
+            for (const glm::vec3& point :
+                 sites.spread(body, sites.sites()[i], static_cast<float>(0.5 * margin)))
+                to_part.add(point);
+        }
+        for (const std::uint32_t v : parts[p].vertices) {
+            const double distance = to_part(body.positions()[body.welded_of()[v]]);
+            if (distance >= least[v]) continue;
+            least[v] = distance;
+            owner[v] = p;
+        }
+    }
+    for (std::uint32_t v = 0; v < count; ++v) {
+        if (owner[v] < parts.size()) parts[owner[v]].own_vertices.push_back(v);
+    }
+}
+
+}  // namespace
+
+std::vector<SiteThickness> site_thickness(const FleshSurface& surface, const SurfaceSites& sites, int threads,
+                                          const SitesDone& done) {
+    const auto narrow = cone_directions(thickness_rays, cone_half_angle);
+    const auto wide = cosine_directions(thickness_rays);
+    std::vector<SiteThickness> thickness(sites.sites().size());
+    const auto work = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Site& site = sites.sites()[i];
+            if (!site.on_surface || site.normal == glm::vec3(0.0F)) continue;
+            thickness[i].along_normal = thickness_of(surface, site, narrow);
+            thickness[i].to_light = thickness_of(surface, site, wide);
+        }
+    };
+    for_each_block(thickness.size(), threads, work, done, 512);
+    return thickness;
+}
+
+std::vector<ThinPart> thin_parts(const Body& body, const SurfaceSites& sites,
+                                 const std::vector<SiteThickness>& thickness, double max_thickness,
+                                 double margin) {
+    const std::vector<float> weights = site_weights(sites, thickness, max_thickness, margin);
+    std::vector<std::uint32_t> chosen;
+    for (std::uint32_t i = 0; i < weights.size(); ++i) {
+        if (weights[i] > 0) chosen.push_back(i);
+    }
+    const SpaceBlocks vertices = vertices_by_light(body, margin);
+    std::vector<ThinPart> parts;
+    for (std::vector<std::uint32_t>& group : site_groups(body, sites, chosen, margin))
+        parts.push_back(make_part(body, sites, std::move(group), thickness, weights, vertices, margin));
+    if (!sites.are_vertices()) share_vertices(body, sites, margin, parts);
     return parts;
 }
 

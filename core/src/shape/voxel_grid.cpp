@@ -75,7 +75,11 @@ glm::ivec3 VoxelGrid::voxel_of(const glm::vec3& point) const {
 void VoxelGrid::fit(std::span<const glm::vec3> centers, double margin) {
     const Bounds bounds = bounds_of(centers);
     const auto around = static_cast<float>(margin + (rim_cells + 1) * static_cast<double>(cell_));
-    low_ = bounds.low - around;
+    // Cells of all parts are cut from one lattice, so that no seam is seen between them. Its shift is none
+    // that flat surfaces have: a center on a surface is neither in nor out.
+    constexpr double shift = 0.382;
+    const auto cell = static_cast<double>(cell_);
+    low_ = (glm::floor(glm::dvec3(bounds.low - around) / cell - shift) + shift) * cell;
     extent_ = glm::ivec3(glm::ceil((bounds.high + around - low_) / cell_)) + 1;
 }
 
