@@ -117,20 +117,64 @@ def check_given_thickness_of_a_map(work):
         np.testing.assert_allclose(row, picture(work)[1, 1], rtol=1e-4)
 
 
+def show_pass(name):
+    """Lets renders show a pass in place of the picture."""
+    scene = bpy.context.scene
+    if bpy.app.version >= (5, 0, 0):
+        tree = bpy.data.node_groups.new("Compositing", "CompositorNodeTree")
+        tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
+        scene.compositing_node_group = tree
+        out = tree.nodes.new("NodeGroupOutput")
+    else:
+        scene.use_nodes = True
+        tree = scene.node_tree
+        tree.nodes.clear()
+        out = tree.nodes.new("CompositorNodeComposite")
+    layers = tree.nodes.new("CompositorNodeRLayers")
+    tree.links.new(layers.outputs[name], out.inputs[0])
+
+
 def check_light_output(work):
     """As an AOV it is the light that the surface got, and the picture less it is the surface."""
     for weights in WEIGHTS:
         fresh()
         obj = skin_scene(weights)
         tree = obj.material_slots[0].material.node_tree
+        node_of(obj).inputs["Tint"].default_value = (0.5, 1.0, 2.0, 1.0)
         glow = picture(work)
         emission = next(n for n in tree.nodes if n.bl_idname == "ShaderNodeEmission")
         emission.inputs["Strength"].default_value = 0.125
         both = picture(work)
         np.testing.assert_allclose(both - glow, 0.125, rtol=1e-3)
-        out = next(n for n in tree.nodes if n.bl_idname == "ShaderNodeOutputMaterial")
-        tree.links.new(node_of(obj).outputs["Light"], out.inputs["Surface"])
-        np.testing.assert_allclose(picture(work), glow, rtol=1e-5, err_msg="a color as surface shines as it is")
+        aov = bpy.context.view_layer.aovs.add()
+        aov.name, aov.type = "Glow", "COLOR"
+        out = tree.nodes.new("ShaderNodeOutputAOV")
+        if hasattr(out, "aov_name"):
+            out.aov_name = "Glow"
+        else:
+            out.name = "Glow"
+        tree.links.new(node_of(obj).outputs["Light"], out.inputs["Color"])
+        show_pass("Glow")
+        np.testing.assert_allclose(picture(work), glow, rtol=1e-5)
+
+
+def check_light_group(work):
+    """The light of a skin in a light group of its own is that group's pass, and no other's."""
+    obj = skin_scene()
+    lamp = add_light("Front", location=(0.0, 0.0, 3.0))
+    glow = picture(work)
+    plain = patch("White", location=(1.0, 1.0, 0.1))
+    plain.data.materials.append(bpy.data.materials.new("White"))
+    for name, member in (("Glow", obj), ("Room", lamp)):
+        bpy.context.view_layer.lightgroups.add(name=name)
+        member.lightgroup = name
+    show_pass("Combined_Glow")
+    shown = picture(work)
+    np.testing.assert_allclose(shown[:2], glow[:2], rtol=1e-5)
+    assert shown[2:, 2:].max() == 0.0
+    show_pass("Combined_Room")
+    shown = picture(work)
+    assert shown[:2].max() == 0.0 and shown[2:, 2:].max() > 0.0
 
 
 def check_updates_reset_nothing(_work):
