@@ -20,7 +20,8 @@ from .commands.skin import SkinState
 from .errors import SkinError
 from .live import handlers
 from .live.live_update import Rebuilt
-from .ui import light_list, lut_preview, main_panel, measuring_operators, menus, operators, presets
+from .show import material_settings
+from .ui import light_list, lut_preview, main_panel, material_operators, measuring_operators, menus, operators, presets
 
 bl_info = {
     "name": "Skinglow",
@@ -61,9 +62,11 @@ _PARTS = (
     skin_settings,
     scene_settings,
     preferences,
+    material_settings,
     lut_preview,
     light_list,
     operators,
+    material_operators,
     measuring_operators,
     presets,
     main_panel,

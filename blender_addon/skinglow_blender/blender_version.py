@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """All differences between Blender 3.4 and 5.2, so that the rest of the add-on is independent of the version."""
 
+from typing import Any
+
 import bpy
 import numpy as np
 
@@ -19,13 +21,39 @@ def eevee_engine() -> str:
     return "BLENDER_EEVEE_NEXT" if (4, 2, 0) <= VERSION < (5, 0, 0) else "BLENDER_EEVEE"
 
 
-def new_group_socket(group: bpy.types.NodeTree, name: str, kind: str, in_out: str, description: str) -> None:
-    """Adds a socket to a node group's interface; in_out is 'INPUT' or 'OUTPUT'."""
+def new_group_socket(
+    group: bpy.types.NodeTree,
+    name: str,
+    kind: str,
+    in_out: str,
+    description: str,
+    **values: Any,  # noqa: ANN401  of the socket's attributes
+) -> None:
+    """Adds a socket to a node group's interface.
+
+    kind    'Shader', 'Color', 'Vector', 'Float', or 'Factor': a number shown as a slider
+    in_out  'INPUT' or 'OUTPUT'
+    values  attributes of the socket, such as default_value
+    """
     if hasattr(group, "interface"):
-        socket = group.interface.new_socket(name, in_out=in_out, socket_type=kind)
+        base = "Float" if kind == "Factor" else kind
+        socket = group.interface.new_socket(name, in_out=in_out, socket_type=f"NodeSocket{base}")
+        if kind == "Factor":
+            socket.subtype = "FACTOR"
     else:
-        socket = (group.inputs if in_out == "INPUT" else group.outputs).new(kind, name)
+        kind = "FloatFactor" if kind == "Factor" else kind
+        socket = (group.inputs if in_out == "INPUT" else group.outputs).new(f"NodeSocket{kind}", name)
     socket.description = description
+    for attribute, value in values.items():
+        setattr(socket, attribute, value)
+
+
+def group_sockets(group: bpy.types.NodeTree, in_out: str) -> frozenset[str]:
+    """The names of a node group's inputs or outputs; in_out is 'INPUT' or 'OUTPUT'."""
+    if hasattr(group, "interface"):
+        sockets = (item for item in group.interface.items_tree if item.item_type == "SOCKET")
+        return frozenset(socket.name for socket in sockets if socket.in_out == in_out)
+    return frozenset(socket.name for socket in (group.inputs if in_out == "INPUT" else group.outputs))
 
 
 def shader_tree(owner: bpy.types.ID) -> bpy.types.NodeTree | None:

@@ -1,34 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether everything that makes an object glow agrees: its nodes, images, materials, thickness and mesh."""
 
-from typing import NamedTuple
-
 import bpy
 import numpy as np
 
 from ..errors import SkinError
 from ..read.measured_size import is_reshaped
-from ..read.mesh_reading import evaluated_mesh
+from ..read.mesh_reading import evaluated_mesh, vertices_of_slots
 from ..session import SESSION
 from ..show.frozen import frozen_file, frozen_frames, frozen_mark, is_frozen
 from ..show.lut_image import SLOTS, images_of, shown_image
-from ..show.skin_material import skin_node
 from ..thickness import thickness_attribute
 from ..thickness.thickness_attribute import KNOWN_ATTRIBUTE, THICKNESS_ATTRIBUTE
+from .material_health import REPAIR, Fault, material_faults, measured_slots
 from .skin import make_skin, skin_settings_of
 
-
-class Fault(NamedTuple):
-    """What is wrong with a skin."""
-
-    what: str
-    remedy: str
-
-    def __str__(self) -> str:
-        return f"{self.what}: {self.remedy}"
-
-
-REPAIR = "press Repair, or call make_skin"
 MEASURE = "press Measure Thickness"
 CHOOSE_REFERENCE = "Choose them in the panel Lookup Table, under Light Distance From"
 FREEZE_AGAIN = "unfreeze it, or then freeze it again"
@@ -60,15 +46,15 @@ def quick_faults(obj: bpy.types.Object) -> list[Fault]:
     else:
         if len(images_of(group)) != len(SLOTS):
             faults.append(Fault("An image of its lookup was deleted", REPAIR))
-        materials = [slot.material for slot in obj.material_slots if slot.material is not None]
-        if not any(_shows(material, group) for material in materials):
-            faults.append(Fault("None of its materials has the Skinglow node, so it does not glow", REPAIR))
+        faults += material_faults(obj)
         if is_frozen(group):
             faults += _frozen_faults(obj, group)
     settings = obj.skinglow
     if settings.reference == "OBJECT" and not _has_reference(settings):
         faults.append(Fault("The object or bone that it measures light distances from is missing", CHOOSE_REFERENCE))
     mesh = obj.data
+    if obj.material_slots and not any(measured_slots(obj)):
+        return faults
     if any(name not in mesh.attributes for name in (THICKNESS_ATTRIBUTE, KNOWN_ATTRIBUTE)):
         faults.append(Fault("Its thickness is not known, so it does not glow", MEASURE))
     elif is_reshaped(mesh) and thickness_attribute.is_from_measurement(mesh):
@@ -97,14 +83,14 @@ def _frozen_faults(obj: bpy.types.Object, group: bpy.types.NodeTree) -> list[Fau
     return []
 
 
-def _shows(material: bpy.types.Material, group: bpy.types.NodeTree) -> bool:
-    node = skin_node(material)
-    return node is not None and node.node_tree == group
-
-
 def _thickness_faults(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[Fault]:
+    slots = measured_slots(obj)
+    if obj.material_slots and not any(slots):
+        return []
     with evaluated_mesh(obj.evaluated_get(depsgraph)) as mesh:
         _thickness, known = thickness_attribute.read(mesh)
+        if not known.all() and not all(slots):
+            known = known[vertices_of_slots(mesh, slots)]
     if not known.all():
         share = np.count_nonzero(~known) / len(known)
         return [
@@ -127,12 +113,13 @@ def repair(obj: bpy.types.Object) -> None:
 
 
 def require_health(scene: bpy.types.Scene) -> None:
-    """Raises SkinError with the faults of all skins that the scene renders."""
+    """Raises SkinError with the faults of all skins that the scene renders, but not for hints."""
     faults = [
         f"'{obj.name}': {fault}"
         for obj in scene.objects
         if obj.type == "MESH" and obj.skinglow.enabled and not obj.hide_render
         for fault in health(obj)
+        if not fault.is_hint
     ]
     if faults:
         raise SkinError("; ".join(faults))

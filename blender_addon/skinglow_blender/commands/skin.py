@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes skins, queries what they show and removes them."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import bpy
@@ -14,8 +14,10 @@ from ..read.scene_reading import ROW_PROPERTY, read_skin
 from ..session import SESSION
 from ..show.frozen import is_frozen, read_frozen
 from ..show.lut_image import group_layout, image_pair, read_row, remove_images, shown_image
+from ..show.mask import fill_mask, remove_masks, store_masks
+from ..show.material_settings import clear_material, reset_material
 from ..show.skin_group import clear
-from ..show.skin_material import add_to_materials, remove_from_material
+from ..show.skin_material import add_to_materials, choose_slots, chosen_materials
 from ..skin_settings import MEASURING_NAMES, SETTING_NAMES, applied
 from ..table.lut_layout import shown_colors
 from ..table.skin_tables import Table
@@ -38,12 +40,19 @@ class SkinState(NamedTuple):
     rebuilt: tuple[Rebuilt, ...]  #: the tables that were computed
 
 
-def make_skin(obj: bpy.types.Object, thickness: Sequence[float] | None = None, **settings: Any) -> SkinState:  # noqa: ANN401
+def make_skin(
+    obj: bpy.types.Object,
+    thickness: Sequence[float] | None = None,
+    slots: Iterable[int | str] | None = None,
+    **settings: Any,  # noqa: ANN401
+) -> SkinState:
     """Makes a mesh object glow: measures thickness, adds the lookup node to its materials, keeps it up to date.
 
     obj        a mesh object with faces, not in Edit Mode; its materials keep their surface
     thickness  custom thicknesses, mm, one per vertex, which are then kept; without it they are measured by ray tracing
                (only if the mesh, its scale or unit changed since the last time)
+    slots      the material slots that are skin, by index or name of the material, without eyes or hair; by
+               default those that were chosen before, at first all
     settings   any property of `obj.skinglow` (skin_settings.py): mode="physical"|"existing"|"paper" (also "fixed"
                and "tinted"), weights="object"|"surface" (mode physical: lit per object or per pixel), strength,
                blood_weight, attenuation, reference="bounds"|"origin"|"point"|"object", reference_point (which
@@ -56,6 +65,7 @@ def make_skin(obj: bpy.types.Object, thickness: Sequence[float] | None = None, *
         settings.setdefault("reference", "POINT")
     if "reference_object" in settings:
         settings.setdefault("reference", "OBJECT")
+    choose = choose_slots(obj, slots) if slots is not None else None
     with applied(obj.skinglow, settings):
         scene = bpy.context.scene
         if thickness is None:
@@ -63,11 +73,16 @@ def make_skin(obj: bpy.types.Object, thickness: Sequence[float] | None = None, *
         else:
             thickness_attribute.store(obj, thickness, measured_geometry.unit_mm(obj, scene))
 
+        if choose is not None:
+            choose()
         group = add_to_materials(obj, obj.skinglow.group)
         if obj.skinglow.group != group:
             obj.skinglow.group = group
             obj.skinglow.row = -1
         obj.skinglow.enabled = True
+        for material in chosen_materials(obj):
+            fill_mask(material)
+        store_masks(obj)
         if ROW_PROPERTY not in obj:
             obj[ROW_PROPERTY] = (0.0, 0.0, 0.0, 0.0)
         obj.update_tag(refresh={"OBJECT"})
@@ -167,10 +182,12 @@ def remove_skin(obj: bpy.types.Object) -> None:
     skins = [o for o in bpy.data.objects if o.skinglow.enabled]
     if not any(o.data == obj.data for o in skins):
         thickness_attribute.remove(obj.data)
+        remove_masks(obj.data)
     used = {slot.material for o in skins for slot in o.material_slots}
     for slot in obj.material_slots:
         if slot.material is not None and slot.material not in used and slot.material.library is None:
-            remove_from_material(slot.material)
+            clear_material(slot.material)
+            reset_material(slot.material)
     if group is not None and group.library is None and not any(o.skinglow.group == group for o in skins):
         remove_images(group)
         if group.users == 0:

@@ -9,6 +9,9 @@ from ..show.skin_group import build_plain
 from ..show.surface_group import build_surface
 from ..thickness.thickness_attribute import mark_known
 
+#: The first version that stored where the thickness is known.
+FIRST_WITH_KNOWN = 2
+
 
 def upgrade() -> None:
     """Rebuilds the nodes of older groups, and stores with older thicknesses that they are known.
@@ -18,8 +21,9 @@ def upgrade() -> None:
     old = [group for group in skin_groups() if group.library is None and group[GROUP_PROPERTY] < GROUP_VERSION]
     if not old:
         return
-    for mesh in bpy.data.meshes:
-        mark_known(mesh)
+    if any(group[GROUP_PROPERTY] < FIRST_WITH_KNOWN for group in old):
+        for mesh in bpy.data.meshes:
+            mark_known(mesh)
     for obj in bpy.data.objects:
         if obj.library is None and obj.skinglow.enabled and obj.skinglow.group in old:
             _keep_settings(obj.skinglow)

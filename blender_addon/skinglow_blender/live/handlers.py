@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Handlers of Blender's events. They never raise: a fault is stored and shown in the panel."""
 
+from collections.abc import Iterable
 from typing import Any
 
 import bpy
@@ -8,8 +9,9 @@ import bpy
 from ..preferences import follows_lights
 from ..read import world_image
 from ..session import SESSION
-from ..show.group_following import follow_materials, remove_orphans
+from ..show.group_following import follow_materials, remove_orphans, separate_copies
 from ..show.lut_image import images_of, skin_groups
+from ..show.mask import mask_groups, store_masks
 from ..table import occlusion
 from .file_upgrade import upgrade
 from .guard import guarded, has_skins
@@ -24,12 +26,12 @@ def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
     if not has_skins() or not is_shown(depsgraph) or not follows_lights():
         return
     changes = changes_of(depsgraph)
-    if changes.materials:
-        follow_materials()
+    moved = changes.materials and follow_materials()
+    follow_weights(changes.reshaped)
     known_images = [name for name in changes.images if world_image.is_known(name)]
     for name in known_images:
         world_image.forget(name)
-    if not known_images and not changes.skins:
+    if not known_images and not changes.skins and not moved:
         return
     if update_shown(depsgraph):
         update_windows_soon()
@@ -83,12 +85,25 @@ def on_undo(_first: Any, _second: Any) -> None:  # noqa: ANN401
     update_windows_soon()
 
 
+def follow_weights(skins: Iterable[bpy.types.Object]) -> None:
+    """Stores the masks of skins by their vertex groups; while they are painted in a window, a moment later."""
+    if SESSION.rendering:
+        return
+    for obj in skins:
+        if mask_groups(obj):
+            if bpy.app.background:
+                store_masks(obj)
+            else:
+                update_windows_soon()
+
+
 @guarded
 def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
     """Called after loading a file. Evaluations during loading are not reported, so everything is updated here."""
     SESSION.forget()
     follow_windows()  # loading clears subscriptions
     upgrade()
+    separate_copies()
     if bpy.context.view_layer is not None and any(obj.skinglow.enabled for obj in bpy.data.objects):
         update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
     remove_orphans()

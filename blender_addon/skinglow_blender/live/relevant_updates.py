@@ -22,6 +22,7 @@ class Changes(NamedTuple):
     skins: bool  #: a light, a skin or the world may have changed, or what instances them
     materials: bool  #: a skin may have got another material
     images: frozenset[str]  #: names of the images that changed
+    reshaped: tuple[bpy.types.Object, ...]  #: the skins whose mesh, or what is painted on it, changed
 
 
 def changes_of(depsgraph: bpy.types.Depsgraph) -> Changes:
@@ -29,14 +30,16 @@ def changes_of(depsgraph: bpy.types.Depsgraph) -> Changes:
 
     With Occlusion on every object matters: it may stand between a light and a skin.
     """
-    skins, materials, images, number = depsgraph.scene.skinglow.occlusion, False, set(), 0
+    skins, materials, images, reshaped, number = depsgraph.scene.skinglow.occlusion, False, set(), [], 0
     for number, update in enumerate(depsgraph.updates, 1):  # noqa: B007  the number of updates
         skins = skins or _may_change_skins(update.id)
         materials = materials or may_change_groups(update)
         if isinstance(update.id, bpy.types.Image):
             images.add(update.id.original.name_full)
+        elif update.is_updated_geometry and isinstance(update.id, bpy.types.Object) and update.id.skinglow.enabled:
+            reshaped.append(update.id.original)
     # Blender 3.4 reports changed images without saying which.
-    return Changes(skins or number == 0, materials, frozenset(images))
+    return Changes(skins or number == 0, materials, frozenset(images), tuple(reshaped))
 
 
 def _may_change_skins(changed: bpy.types.ID) -> bool:

@@ -8,6 +8,7 @@ update of one would undo that of the other, without end.
 import bpy
 
 from ..session import SESSION
+from ..show.mask import store_all_masks
 from .guard import faults_shown, has_skins
 from .live_update import Rebuilt, update_scene
 
@@ -64,6 +65,7 @@ def update_windows() -> float | None:
     if SESSION.rendering:
         return DELAY
     with faults_shown():
+        store_all_masks()
         for layer in shown_layers():
             if layer.depsgraph is not None:
                 update_shown(layer.depsgraph)

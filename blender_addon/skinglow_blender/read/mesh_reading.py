@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Evaluated meshes as arrays, reread only when they changed."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from itertools import count
 from typing import NamedTuple
@@ -96,3 +96,16 @@ def triangles_of(mesh: bpy.types.Mesh) -> np.ndarray:
     triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
     mesh.loop_triangles.foreach_get("vertices", triangles)
     return triangles.reshape(-1, 3)
+
+
+def vertices_of_slots(mesh: bpy.types.Mesh, slots: Sequence[bool]) -> np.ndarray:
+    """(n,) bool: the vertices of faces whose material slot is one of those; faces beyond the last slot are in it."""
+    count = len(mesh.polygons)
+    slot, sizes, corners = np.empty(count, np.int32), np.empty(count, np.int32), np.empty(len(mesh.loops), np.int32)
+    mesh.polygons.foreach_get("material_index", slot)
+    mesh.polygons.foreach_get("loop_total", sizes)
+    mesh.loops.foreach_get("vertex_index", corners)
+    wanted = np.asarray(slots, bool)[np.minimum(slot, len(slots) - 1)]
+    found = np.zeros(len(mesh.vertices), bool)
+    found[corners[np.repeat(wanted, sizes)]] = True
+    return found

@@ -7,8 +7,19 @@ A skin has its row in the images of one node group. If it, or a mesh that it sha
 
 import bpy
 
-from .lut_image import SLOTS, delete_images, images_of, shown_image, skin_groups
+from .group_sockets import replace_group
+from .lut_image import (
+    FROZEN_PROPERTY,
+    SLOTS,
+    delete_images,
+    group_layout,
+    images_of,
+    renew_images,
+    shown_image,
+    skin_groups,
+)
 from .skin_material import skin_node
+from .surface_group import build_surface
 
 
 def may_change_groups(update: bpy.types.DepsgraphUpdate) -> bool:
@@ -18,12 +29,39 @@ def may_change_groups(update: bpy.types.DepsgraphUpdate) -> bool:
     return isinstance(update.id, bpy.types.Material)
 
 
-def follow_materials() -> None:
-    """Moves each skin to the group in its materials, and all materials of a skin to one group."""
+def follow_materials() -> bool:
+    """Moves each skin to the group in its materials, and all materials of a skin to one group.
+
+    Returns whether anything was moved.
+    """
     skins = [obj for obj in bpy.data.objects if obj.type == "MESH" and obj.skinglow.enabled]
-    moved = True
+    again, moved = separate_copies(), True
     while moved:
         moved = any([_follow(obj) for obj in skins])
+        again = again or moved
+    return again
+
+
+def separate_copies() -> bool:
+    """Gives each group that was copied from another images and inner groups of its own; returns whether there was one.
+
+    The copy shows the images of the other, in which its skins would take the rows of the other's.
+    """
+    owners, separated = set(), False
+    for group in sorted(skin_groups(), key=lambda group: group.library is None):
+        if FROZEN_PROPERTY in group:
+            continue
+        images = images_of(group)
+        if not images or images[0] not in owners:
+            owners.update(images)
+            continue
+        if group.library is None:
+            layout = group_layout(group)
+            if layout is not None:
+                build_surface(group, layout)
+            renew_images(group, *images[0].size)
+            separated = True
+    return separated
 
 
 def _follow(obj: bpy.types.Object) -> bool:
@@ -37,7 +75,8 @@ def _follow(obj: bpy.types.Object) -> bool:
     moved = False
     for node in nodes:
         if node.node_tree != group and node.id_data.library is None:
-            node.node_tree, moved = group, True
+            replace_group(node, group)
+            moved = True
     if obj.skinglow.group != group:
         obj.skinglow.group, obj.skinglow.row, moved = group, -1, True
         obj.update_tag(refresh={"OBJECT"})

@@ -99,23 +99,28 @@ def ensure_images(group: bpy.types.NodeTree, width: int, rows: int) -> None:
         return
     images = images_of(group)
     if len(images) != len(SLOTS):
-        images = []
-        try:
-            for slot in SLOTS:
-                images.append(_new_image(f".Skinglow LUT {slot.replace('_', ' ')}", width, _power_of_two(rows)))
-        except SkinError:
-            for image in images:
-                bpy.data.images.remove(image)
-            raise
-        # Each points to all four, so that the visible one keeps the others in the file and in appended copies.
-        for image in images:
-            for slot, other in zip(SLOTS, images, strict=True):
-                setattr(image.skinglow, slot, other)
-        show_image(group, images[0])
+        renew_images(group, width, rows)
         return
     width, rows = max(width, images[0].size[0]), max(_power_of_two(rows), images[0].size[1])
     for image in images:
         image.scale(width, rows)
+
+
+def renew_images(group: bpy.types.NodeTree, width: int, rows: int) -> None:
+    """Gives a group four new images of at least that size, empty until the next update. Not while rendering."""
+    images = []
+    try:
+        for slot in SLOTS:
+            images.append(_new_image(f".Skinglow LUT {slot.replace('_', ' ')}", width, _power_of_two(rows)))
+    except SkinError:
+        for image in images:
+            bpy.data.images.remove(image)
+        raise
+    # Each points to all four, so that the visible one keeps the others in the file and in appended copies.
+    for image in images:
+        for slot, other in zip(SLOTS, images, strict=True):
+            setattr(image.skinglow, slot, other)
+    show_image(group, images[0])
 
 
 def _power_of_two(rows: int) -> int:
@@ -218,8 +223,22 @@ class Atlas:
 
     def show(self, group: bpy.types.NodeTree) -> None:
         """Puts the up-to-date image into the nodes, unless it is there already."""
-        show_image(group, image_pair(group, self.mode)[self.front])
+        image = image_pair(group, self.mode)[self.front]
+        if self.mode == "RENDER" and shown_image(group) != image:
+            _keep_animated()
+        show_image(group, image)
         self.was_shown = True
+
+
+def _keep_animated() -> None:
+    """Has Blender evaluate the animation of materials again.
+
+    A change of their nodes copies them anew, with the values of the frame that the viewport shows.
+    """
+    materials = [owner for m in bpy.data.materials for owner in (m, m.node_tree) if owner is not None]
+    for owner in (*materials, *bpy.data.node_groups):
+        if owner.animation_data is not None:
+            owner.update_tag(refresh={"TIME"})
 
 
 def _addresses(group: bpy.types.NodeTree, mode: str) -> tuple[int, ...]:

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Inserts the skin's node group into an object's materials and removes it."""
 
+from collections.abc import Callable, Iterable
+
 import bpy
 import numpy as np
 
 from .. import blender_version
 from ..errors import SkinError
 from ..read import working_space
+from .group_sockets import replace_group
 from .lut_image import FROZEN_PROPERTY, is_skin_group, skin_groups
 from .skin_group import new_group
 
@@ -18,61 +21,122 @@ PLAIN_SKIN_COLOR = (0.5395, 0.3050, 0.2232)
 PLAIN_SKIN_ROUGHNESS = 0.45
 
 
+def chosen_materials(obj: bpy.types.Object) -> list[bpy.types.Material]:
+    """The materials of an object that are skin: all but those that were left out.
+
+    A library's material cannot be left out or added to: it is skin where it has the node.
+    """
+    materials = [slot.material for slot in obj.material_slots if slot.material is not None]
+    return [m for m in dict.fromkeys(materials) if (m.skinglow.is_skin if m.library is None else skin_node(m))]
+
+
+def choose_slots(obj: bpy.types.Object, slots: Iterable[int | str]) -> Callable[[], None]:
+    """Checks a choice of material slots, by index or name of the material; returns what makes the choice.
+
+    Raises ValueError naming a slot that is not there, SkinError for one that cannot be skin.
+    """
+    there = {i: slot.material for i, slot in enumerate(obj.material_slots)}
+    chosen = []
+    for wanted in [slots] if isinstance(slots, (int, str)) else slots:
+        found = [m for i, m in there.items() if m is not None and wanted in (i, m.name)]
+        if not found:
+            names = ", ".join(f"{i} '{m.name}'" for i, m in there.items() if m is not None)
+            raise ValueError(
+                f"make_skin: slots = {wanted!r} is not allowed: '{obj.name}' has the slots {names or 'none'}"
+            )
+        chosen += found
+    _check_local(obj, chosen)
+    if not chosen:
+        raise ValueError(
+            f"make_skin: slots = {slots!r} is not allowed: at least one slot of '{obj.name}' has to be skin"
+        )
+
+    def choose() -> None:
+        for material in set(there.values()) - {None}:
+            if material.library is None and material.skinglow.is_skin != (material in chosen):
+                material.skinglow.is_skin = material in chosen
+
+    return choose
+
+
 def add_to_materials(obj: bpy.types.Object, group: bpy.types.NodeTree | None) -> bpy.types.NodeTree:
-    """Inserts the group after the surface of each of an object's materials; returns the group in use.
+    """Inserts the group after the surface of each of an object's materials that are skin; returns the group in use.
 
     A material that already has a skin group keeps it, so that objects which share a material share the group.
     """
-    materials = [slot.material for slot in obj.material_slots if slot.material is not None]
+    materials = chosen_materials(obj)
     if not materials:
+        used = [slot.material for slot in obj.material_slots if slot.material is not None]
+        if used:
+            _check_local(obj, used)
+            raise SkinError(f"None of the materials of '{obj.name}' is chosen as skin: choose one of its slots")
         materials = [_plain_skin(obj)]
     for material in materials:
         existing = skin_node(material)
         if existing is not None:
             group = existing.node_tree
             break
+    if group is None:
+        group = next((g for g in skin_groups() if g.library is None and FROZEN_PROPERTY not in g), None) or new_group()
+    for material in materials:
+        node = skin_node(material)
+        if node is None:
+            insert(material, group)
+        elif node.node_tree != group and material.library is None:
+            replace_group(node, group)
+    return group
+
+
+def _check_local(obj: bpy.types.Object, materials: list[bpy.types.Material]) -> None:
     for material in materials:
         if material.library is not None and skin_node(material) is None:
             raise SkinError(
                 f"Material '{material.name}' of '{obj.name}' belongs to {material.library.filepath}: make it local "
                 "(Object > Relations > Make Local > ... and Materials) or make the skin in that file"
             )
-    if group is None:
-        group = next((g for g in skin_groups() if g.library is None and FROZEN_PROPERTY not in g), None) or new_group()
-    for material in materials:
-        node = skin_node(material)
-        if node is None:
-            _insert(material, group)
-        elif node.node_tree != group:
-            node.node_tree = group
-    return group
+
+
+def skin_nodes(material: bpy.types.Material) -> list[bpy.types.Node]:
+    """The material's skin group nodes: one for each of its outputs."""
+    tree = blender_version.shader_tree(material)
+    if tree is None:
+        return []
+    return [n for n in tree.nodes if n.bl_idname == "ShaderNodeGroup" and is_skin_group(n.node_tree)]
 
 
 def skin_node(material: bpy.types.Material) -> bpy.types.Node | None:
-    """The material's skin group node, or None."""
-    tree = blender_version.shader_tree(material)
-    if tree is None:
-        return None
-    return next((n for n in tree.nodes if n.bl_idname == "ShaderNodeGroup" and is_skin_group(n.node_tree)), None)
+    """The material's first skin group node, or None."""
+    return next(iter(skin_nodes(material)), None)
+
+
+def skin_input(node: bpy.types.Node, name: str) -> bpy.types.NodeSocket | None:
+    """An input of a skin's node; None where its group is a library's of an earlier version."""
+    return node.inputs.get(name)
+
+
+def gives_thickness(material: bpy.types.Material) -> bool:
+    """Whether a material has a thickness of its own, so that the measured one does not matter."""
+    inputs = [skin_input(node, "Thickness") for node in skin_nodes(material)]
+    return bool(inputs) and all(s is not None and (s.is_linked or s.default_value >= 0.0) for s in inputs)
 
 
 def remove_from_material(material: bpy.types.Material) -> None:
     """Removes the group and reconnects the surface to the output."""
     tree = blender_version.shader_tree(material)
-    node = skin_node(material)
-    while node is not None:
-        before = node.inputs[0].links[0].from_socket if node.inputs[0].is_linked else None
-        after = [link.to_socket for link in node.outputs[0].links]
+    for node in skin_nodes(material):
+        surface = node.inputs["Surface"]
+        before = surface.links[0].from_socket if surface.is_linked else None
+        after = [link.to_socket for link in node.outputs["Shader"].links]
         for socket in after:
             if before is not None:
                 tree.links.new(before, socket)
         if SAMPLING_PROPERTY in node:
             blender_version.set_emission_sampling(material, node[SAMPLING_PROPERTY])
         tree.nodes.remove(node)
-        node = skin_node(material)
 
 
-def _insert(material: bpy.types.Material, group: bpy.types.NodeTree) -> None:
+def insert(material: bpy.types.Material, group: bpy.types.NodeTree) -> None:
+    """Inserts the group between a material's surface and its outputs."""
     # Otherwise Cycles samples each face of the skin as a light and spends most of its samples on them: three times the
     # render time, for light too faint to need direct sampling.
     sampling = blender_version.emission_sampling(material)

@@ -11,6 +11,7 @@ import bpy
 
 from .. import blender_version
 from ..table.lut_layout import LAYOUT_PROPERTY, Layout
+from .group_sockets import ensure_sockets
 from .light_term_nodes import FarSide, LightTexels, light_irradiance
 from .lut_image import SURFACE_NODE, TEXEL_NODE, show_image, shown_image
 from .node_building import NodeBuilder, Socket
@@ -21,6 +22,7 @@ def build_surface(group: bpy.types.NodeTree, layout: Layout) -> None:
     """Rebuilds a skin group's nodes for that layout; its images are kept."""
     image = shown_image(group)
     clear(group)
+    ensure_sockets(group)
     build = NodeBuilder(group, -2400.0, 200.0)
     row = RowSockets(build)
     texels = _Texels(build, row, _texel_group())
@@ -49,7 +51,7 @@ def build_surface(group: bpy.types.NodeTree, layout: Layout) -> None:
         # Clamp the sum, not the polynomial: far lights of negative power take light from the others.
         shown = build.vector("MAXIMUM", reduce(partial(build.vector, "ADD"), parts), (0.0, 0.0, 0.0))
         light = build.vector("ADD", constant, shown)
-    finish(build, _transmitted(build, row, texels, layout, light), row.strength)
+    finish(build, _transmitted(build, row, texels, layout, light), row)
     group[LAYOUT_PROPERTY] = tuple(int(n) for n in layout)
     if image is not None:
         show_image(group, image)
@@ -108,7 +110,7 @@ def _inner_group(name: str, inputs: dict[str, str], outputs: dict[str, str]) -> 
     tree = bpy.data.node_groups.new(name, "ShaderNodeTree")
     for in_out, sockets in (("INPUT", inputs), ("OUTPUT", outputs)):
         for socket, kind in sockets.items():
-            blender_version.new_group_socket(tree, socket, f"NodeSocket{kind}", in_out, "")
+            blender_version.new_group_socket(tree, socket, kind, in_out, "")
     build = NodeBuilder(tree, 0.0, 0.0)
     return build, build.node("NodeGroupInput")
 

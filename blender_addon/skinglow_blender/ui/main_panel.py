@@ -6,9 +6,10 @@ import bpy
 from ..commands.health import quick_faults
 from ..read.measured_geometry import unit_mm
 from ..session import SESSION
-from . import lights_panel, look_panel, lookup_table_panel, thickness_panel, tools_panel
+from . import lights_panel, look_panel, lookup_table_panel, material_panel, thickness_panel, tools_panel
 from .locations import ObjectProperties, Sidebar, is_skin
 from .lut_preview import icon_of
+from .material_panel import draw_shown_by
 from .wrapped_text import draw_wrapped
 
 
@@ -45,8 +46,12 @@ def _draw_faults(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy
     box = layout.box()
     column = box.column(align=True)
     for fault in faults:
-        draw_wrapped(column, fault.what, context, icon="ERROR")
-    box.operator("skinglow.repair", text="Repair", icon="FILE_REFRESH")
+        draw_wrapped(column, fault.what, context, icon="INFO" if fault.is_hint else "ERROR")
+    if not all(fault.is_hint for fault in faults):
+        box.operator("skinglow.repair", text="Repair", icon="FILE_REFRESH")
+    if any(fault.is_hint for fault in faults):
+        box.label(text="Light Shown By:")
+        draw_shown_by(box.row(align=True), "BOTH")
 
 
 def _draw_start(layout: bpy.types.UILayout, obj: bpy.types.Object | None, context: bpy.types.Context) -> None:
@@ -88,6 +93,7 @@ CLASSES = (
     SKINGLOW_PT_sidebar,
     SKINGLOW_PT_object,
     *look_panel.CLASSES,
+    *material_panel.CLASSES,
     *lights_panel.CLASSES,
     *thickness_panel.CLASSES,
     *lookup_table_panel.CLASSES,

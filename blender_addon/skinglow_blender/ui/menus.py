@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Entries in Blender's own menus: Object, its context menu, and File > Export."""
+"""Entries in Blender's own menus: Object, its context menu, File > Export, and Add in the Shader Editor."""
 
 import bpy
 
@@ -35,11 +35,25 @@ def _in_export_menu(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
     self.layout.operator("skinglow.export_povray", text="Skin Glow for POV-Ray (.pov)")
 
 
+def _in_node_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    group = context.object.skinglow.group if context.object is not None else None
+    if context.space_data.tree_type != "ShaderNodeTree" or group is None:
+        return
+    self.layout.separator()
+    add = self.layout.operator("node.add_node", text="Skinglow", icon="LIGHT_SUN")
+    add.type, add.use_transform = "ShaderNodeGroup", True
+    setting = add.settings.add()
+    # A name alone is not enough where a library has a group of that name.
+    library = group.library.filepath if group.library is not None else None
+    setting.name, setting.value = "node_tree", f"bpy.data.node_groups[{group.name!r}, {library!r}]"
+
+
 #: Blender's menus and what is added to each.
 ENTRIES = (
     ("VIEW3D_MT_object", _in_object_menu),
     ("VIEW3D_MT_object_context_menu", _in_object_menu),
     ("TOPBAR_MT_file_export", _in_export_menu),
+    ("NODE_MT_add", _in_node_menu),
 )
 
 

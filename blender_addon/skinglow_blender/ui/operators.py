@@ -42,7 +42,9 @@ class _SkinOperator:
         return {"FINISHED"}
 
 
-class _SelectedSkins(_SkinOperator):
+class SelectedSkinsOperator(_SkinOperator):
+    """An operator on the selected skins."""
+
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if context.mode != "OBJECT":
@@ -54,7 +56,7 @@ class _SelectedSkins(_SkinOperator):
         return False
 
 
-class SKINGLOW_OT_remove(_SelectedSkins, bpy.types.Operator):  # noqa: N801  Blender's naming
+class SKINGLOW_OT_remove(SelectedSkinsOperator, bpy.types.Operator):  # noqa: N801  Blender's naming
     """Removes skins."""
 
     bl_idname = "skinglow.remove"
@@ -71,7 +73,7 @@ class SKINGLOW_OT_remove(_SelectedSkins, bpy.types.Operator):  # noqa: N801  Ble
         return self.attempt(remove)
 
 
-class SKINGLOW_OT_repair(_SelectedSkins, bpy.types.Operator):  # noqa: N801
+class SKINGLOW_OT_repair(SelectedSkinsOperator, bpy.types.Operator):  # noqa: N801
     """Repairs what the panel says is wrong."""
 
     bl_idname = "skinglow.repair"
@@ -83,7 +85,7 @@ class SKINGLOW_OT_repair(_SelectedSkins, bpy.types.Operator):  # noqa: N801
             skins = selected_skins(context)
             for obj in skins:
                 repair(obj)
-            left = [f"'{obj.name}': {fault}" for obj in skins for fault in health(obj)]
+            left = [f"'{obj.name}': {fault}" for obj in skins for fault in health(obj) if not fault.is_hint]
             if left:
                 raise SkinError("; ".join(left))
             return f"{', '.join(obj.name for obj in skins)}: all is well"
@@ -91,7 +93,7 @@ class SKINGLOW_OT_repair(_SelectedSkins, bpy.types.Operator):  # noqa: N801
         return self.attempt(repair_all)
 
 
-class SKINGLOW_OT_reset(_SelectedSkins, bpy.types.Operator):  # noqa: N801
+class SKINGLOW_OT_reset(SelectedSkinsOperator, bpy.types.Operator):  # noqa: N801
     """Resets skins to the defaults."""
 
     bl_idname = "skinglow.reset"

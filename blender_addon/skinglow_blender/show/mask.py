@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fills the Mask socket of a skin's materials from a vertex group or an image.
+
+EEVEE, and Cycles before 4.5, cannot read vertex groups. So the weights are copied to an attribute of the mesh.
+"""
+
+import bpy
+import numpy as np
+
+from .skin_material import skin_input, skin_nodes
+
+#: Custom property of the nodes that fill the socket.
+MASK_PROPERTY = "skinglow_mask"
+#: The attribute that holds a vertex group's weights is called so, followed by the group's name.
+ATTRIBUTE_PREFIX = "skinglow_mask_"
+
+
+def fill_mask(material: bpy.types.Material) -> None:
+    """Connects what the material's settings ask for; what an artist connected stays."""
+    settings = material.skinglow
+    if material.library is not None:
+        return
+    for node in skin_nodes(material):
+        if masked_by_artist(node):
+            continue
+        kind = None
+        if settings.mask == "VERTEX_GROUP" and settings.mask_group:
+            kind = "ShaderNodeAttribute"
+        elif settings.mask == "IMAGE" and settings.mask_image is not None:
+            kind = "ShaderNodeTexImage"
+        source = _source(node, kind)
+        if kind == "ShaderNodeAttribute":
+            source.attribute_type, source.attribute_name = "GEOMETRY", ATTRIBUTE_PREFIX + settings.mask_group
+            material.node_tree.links.new(source.outputs["Fac"], node.inputs["Mask"])
+        elif kind == "ShaderNodeTexImage":
+            source.image = settings.mask_image
+            material.node_tree.links.new(source.outputs["Color"], node.inputs["Mask"])
+
+
+def masked_by_artist(node: bpy.types.Node) -> bool:
+    """Whether something else than the settings is connected to the Mask of a skin's node."""
+    socket = skin_input(node, "Mask")
+    return socket is None or (socket.is_linked and MASK_PROPERTY not in socket.links[0].from_node)
+
+
+def remove_mask_nodes(material: bpy.types.Material) -> None:
+    """Removes the nodes that the settings added."""
+    for node in skin_nodes(material):
+        if not masked_by_artist(node):
+            _source(node, None)
+
+
+def _source(node: bpy.types.Node, kind: str | None) -> bpy.types.Node | None:
+    """The node of that kind that fills a skin node's Mask, made if there is none; any other of ours is removed."""
+    tree, socket = node.id_data, node.inputs["Mask"]
+    source = socket.links[0].from_node if socket.is_linked else None
+    if source is not None and source.bl_idname != kind and MASK_PROPERTY in source:
+        tree.nodes.remove(source)
+        source = None
+    if source is None and kind is not None:
+        source = tree.nodes.new(kind)
+        source[MASK_PROPERTY] = True
+        source.label, source.location = "Skinglow Mask", (node.location.x - 320, node.location.y - 180)
+    return source
+
+
+def mask_groups(obj: bpy.types.Object) -> set[str]:
+    """The vertex groups by which materials of an object are masked."""
+    settings = (slot.material.skinglow for slot in obj.material_slots if slot.material is not None)
+    return {s.mask_group for s in settings if s.is_skin and s.mask == "VERTEX_GROUP" and s.mask_group}
+
+
+def store_masks(obj: bpy.types.Object) -> None:
+    """Copies the weights of the vertex groups by which an object is masked to attributes, if they changed."""
+    mesh, names = obj.data, mask_groups(obj)
+    if mesh.library is not None or obj.mode == "EDIT":
+        return
+    for attribute in [a for a in mesh.attributes if a.name.startswith(ATTRIBUTE_PREFIX)]:
+        if attribute.name.removeprefix(ATTRIBUTE_PREFIX) not in names & set(obj.vertex_groups.keys()):
+            mesh.attributes.remove(attribute)
+    for name in names & set(obj.vertex_groups.keys()):
+        weights = _weights(mesh, obj.vertex_groups[name].index)
+        attribute = mesh.attributes.get(ATTRIBUTE_PREFIX + name)
+        if attribute is None:
+            attribute = mesh.attributes.new(ATTRIBUTE_PREFIX + name, "FLOAT", "POINT")
+        stored = np.empty_like(weights)
+        attribute.data.foreach_get("value", stored)
+        if not np.array_equal(stored, weights):
+            attribute.data.foreach_set("value", weights)
+            mesh.update()
+
+
+def store_all_masks() -> None:
+    """The same for every skin of the file."""
+    for obj in bpy.data.objects:
+        if obj.type == "MESH" and obj.skinglow.enabled and mask_groups(obj):
+            store_masks(obj)
+
+
+def _weights(mesh: bpy.types.Mesh, index: int) -> np.ndarray:
+    weights = np.zeros(len(mesh.vertices), np.float32)
+    for i, vertex in enumerate(mesh.vertices):
+        for group in vertex.groups:
+            if group.group == index:
+                weights[i] = group.weight
+    return weights
+
+
+def remove_masks(mesh: bpy.types.Mesh) -> None:
+    """Removes the attributes that `store_masks` added."""
+    for attribute in [a for a in mesh.attributes if a.name.startswith(ATTRIBUTE_PREFIX)]:
+        mesh.attributes.remove(attribute)

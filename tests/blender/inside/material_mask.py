@@ -1,0 +1,146 @@
+"""The Mask by a vertex group or an image: fills the socket, follows what is painted, keeps the artist's links."""
+
+import bpy
+import numpy as np
+import skinglow_blender as sb
+from skinglow_blender.show.mask import ATTRIBUTE_PREFIX, MASK_PROPERTY
+
+from inside.material_sockets import connect, node_of, picture, skin_scene
+from inside.scenes import depsgraph, patch
+
+
+def painted(obj, name="Ears", weights=(0.0, 1.0, 1.0, 0.0)):
+    group = obj.vertex_groups.get(name) or obj.vertex_groups.new(name=name)
+    for i, weight in enumerate(weights):
+        group.add([i], weight, "REPLACE")
+    obj.data.update()
+    depsgraph()
+    return group
+
+
+def material_of(obj):
+    return obj.material_slots[0].material
+
+
+def across(before, work, engine="CYCLES"):
+    """The factor on the light, from left to right."""
+    return (picture(work, engine) / before)[1, :, 0]
+
+
+RAMP = (np.arange(4) + 0.5) / 4
+
+
+def check_vertex_group(work):
+    """In both engines, lit per object and per pixel."""
+    for weights, engine in (("object", "CYCLES"), ("surface", "CYCLES"), ("object", "EEVEE")):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        obj = skin_scene(weights)
+        before = picture(work, engine)
+        painted(obj)
+        material_of(obj).skinglow.mask_group = "Ears"
+        np.testing.assert_array_equal(picture(work, engine), before)
+        material_of(obj).skinglow.mask = "VERTEX_GROUP"
+        np.testing.assert_allclose(across(before, work, engine), RAMP, rtol=2e-3)
+        material_of(obj).skinglow.mask = "NONE"
+        np.testing.assert_array_equal(picture(work, engine), before)
+        assert not any(MASK_PROPERTY in node for node in node_of(obj).id_data.nodes)
+        assert not any(a.name.startswith(ATTRIBUTE_PREFIX) for a in obj.data.attributes)
+
+
+def check_weights_that_are_painted(work):
+    """Changed weights act at once; a mesh that got vertices, a renamed group and a modifier too."""
+    obj = skin_scene()
+    before = picture(work)
+    painted(obj)
+    material_of(obj).skinglow.mask, material_of(obj).skinglow.mask_group = "VERTEX_GROUP", "Ears"
+    painted(obj, weights=(1.0, 0.0, 0.0, 1.0))
+    np.testing.assert_allclose(across(before, work), RAMP[::-1], rtol=2e-3)
+    bpy.context.view_layer.objects.active = obj
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    depsgraph()
+    np.testing.assert_allclose(across(before, work), RAMP[::-1], rtol=2e-3)
+    obj.modifiers.new("Finer", "SUBSURF").subdivision_type = "SIMPLE"
+    np.testing.assert_allclose(across(before, work), RAMP[::-1], rtol=2e-3)
+
+
+def check_a_group_that_is_not_there(work):
+    """It does not glow by mistake, and it is told; added, it glows."""
+    obj = skin_scene()
+    before = picture(work)
+    material_of(obj).skinglow.mask, material_of(obj).skinglow.mask_group = "VERTEX_GROUP", "Ears"
+    assert picture(work).max() == 0.0
+    assert "no vertex group 'Ears'" in str(sb.health(obj)[0])
+    painted(obj)
+    assert sb.health(obj) == []
+    np.testing.assert_allclose(across(before, work), RAMP, rtol=2e-3)
+    obj.vertex_groups["Ears"].name = "Nose"
+    obj.data.update()
+    depsgraph()
+    assert "no vertex group 'Ears'" in str(sb.health(obj)[0]) and picture(work).max() == 0.0
+
+
+def check_two_objects_on_one_material(work):
+    """Each by its own weights."""
+    obj = skin_scene()
+    before = picture(work)
+    painted(obj)
+    other = patch("Other", location=(0.0, 0.0, 0.1), material=material_of(obj))
+    sb.make_skin(other, thickness=[2.0] * 4, mode="physical")
+    painted(other, weights=(1.0, 0.0, 0.0, 1.0))
+    material_of(obj).skinglow.mask, material_of(obj).skinglow.mask_group = "VERTEX_GROUP", "Ears"
+    other.hide_render = True
+    np.testing.assert_allclose(across(before, work), RAMP, rtol=2e-3)
+    other.hide_render, obj.hide_render = False, True
+    shown = picture(work)[1, :, 0]
+    np.testing.assert_allclose(shown / shown.sum(), RAMP[::-1] / RAMP.sum(), rtol=2e-3)
+
+
+def check_image(work):
+    obj = skin_scene()
+    before = picture(work)
+    uv = obj.data.uv_layers.new(name="UVMap")
+    for loop, corner in zip(uv.data, ((0, 0), (1, 0), (1, 1), (0, 1)), strict=True):
+        loop.uv = corner
+    image = bpy.data.images.new("Mask", 4, 1, float_buffer=True, is_data=True)
+    image.pixels = [value for x in RAMP for value in (x, x, x, 1.0)]
+    settings = material_of(obj).skinglow
+    settings.mask = "IMAGE"
+    np.testing.assert_array_equal(picture(work), before, err_msg="no image yet")
+    settings.mask_image = image
+    np.testing.assert_allclose(across(before, work), RAMP, rtol=2e-3)
+    # What the artist does with the node of ours stays when the image changes.
+    node = node_of(obj).inputs["Mask"].links[0].from_node
+    node.interpolation = "Closest"
+    settings.mask_image = bpy.data.images.new("Black", 4, 4)
+    assert node_of(obj).inputs["Mask"].links[0].from_node == node and node.interpolation == "Closest"
+    assert picture(work).max() == 0.0
+
+
+def check_what_the_artist_connected_stays(work):
+    obj = skin_scene()
+    before = picture(work)
+    painted(obj)
+    source = connect(node_of(obj), "Mask", 0.5)
+    settings = material_of(obj).skinglow
+    for mask in ("VERTEX_GROUP", "IMAGE", "NONE"):
+        settings.mask, settings.mask_group = mask, "Ears"
+        assert node_of(obj).inputs["Mask"].links[0].from_node == source
+        np.testing.assert_allclose(picture(work), 0.5 * before, rtol=1e-5)
+
+
+def check_set_before_it_is_a_skin(work):
+    """The settings of a material are filled in by make_skin."""
+    obj = skin_scene()
+    before = picture(work)
+    painted(obj)
+    sb.remove_skin(obj)
+    material_of(obj).skinglow.mask, material_of(obj).skinglow.mask_group = "VERTEX_GROUP", "Ears"
+    sb.make_skin(obj, thickness=[2.0] * 4, mode="physical")
+    np.testing.assert_allclose(across(before, work), RAMP, rtol=2e-3)
+    # Removed, nothing is left.
+    sb.remove_skin(obj)
+    assert not any(MASK_PROPERTY in node for node in material_of(obj).node_tree.nodes)
+    assert not any(a.name.startswith("skinglow") for a in obj.data.attributes)
