@@ -32,6 +32,7 @@ def light_report(
               scene's occlusion is on and the mode is physical
     reason    why its weight is zero, or ""
     note      what of it is not supported, or ""
+    object    name, with its library, of the object to select for it: of an instance, its instancer; "" for the world
 
     reading   the scene as it was just read from this depsgraph; None: it is read here
     """
@@ -53,7 +54,7 @@ def light_report(
     for other in depsgraph.scene.objects:
         if other.type == "LIGHT" and other.name not in listed:
             hidden = _entry(other.name, other.data.type, reason=_why_hidden(other, depsgraph))
-            rows.append(hidden | {"distance": None, "angle": None})
+            rows.append(hidden | {"distance": None, "angle": None, "object": other.name_full})
     return rows
 
 
@@ -69,6 +70,7 @@ def _entry(name: str, kind: str, reason: str = "", note: str = "") -> dict[str, 
         "visible": 1.0,
         "reason": reason,
         "note": note,
+        "object": "",
     }
 
 
@@ -87,7 +89,7 @@ def _row(skin: Skin, scene_light: SceneLight, far_lights: frozenset[str]) -> dic
     if scene_light.name in far_lights:
         notes.append(f"more than {MAX_TERMS} lights: treated as distant")
     row = _entry(scene_light.name, scene_light.signature[1], scene_light.unlit_reason, "; ".join(filter(None, notes)))
-    row["visible"] = visible
+    row["visible"], row["object"] = visible, scene_light.shown_by
     if not row["reason"] and not scene_light.lights(skin.key):
         row["reason"] = "light linking excludes this object"
     try:

@@ -23,6 +23,7 @@ class SceneLight(NamedTuple):
 
     name: str  #: for people: an instance is named after its light and its instancer
     object_name: str  #: of the light object, also of an instance
+    shown_by: str  #: key (name with library) of the object to select for it: of an instance, its instancer
     signature: tuple  #: everything its emission depends on (FIELDS); equal signatures emit equal light
     receivers: frozenset[str] | None  #: keys (Skin.key) of the only objects it lights; None: all
     excluded: frozenset[str]  #: keys of objects it does not light
@@ -43,7 +44,13 @@ class SceneLight(NamedTuple):
         return self if fraction == 1.0 else self._replace(signature=(*self.signature[:-1], fraction))
 
 
-def read_light(obj: bpy.types.Object, matrix: Matrix, name: str, target: str = "ALL") -> SceneLight:
+def read_light(
+    obj: bpy.types.Object,
+    matrix: Matrix,
+    name: str,
+    target: str = "ALL",
+    instancer: bpy.types.Object | None = None,
+) -> SceneLight:
     """Reads an evaluated light object with the given world matrix, for the renders of `target`
     (blender_version.output_target).
     """
@@ -76,7 +83,9 @@ def read_light(obj: bpy.types.Object, matrix: Matrix, name: str, target: str = "
     receivers, excluded = _linked_objects(obj)
     unlit_reason = _unlit_reason(obj, kind, direction)
     casts_shadows = blender_version.light_casts_shadows(light)
-    return SceneLight(name, obj.name, signature, receivers, excluded, unlit_reason, note or gamut_note, casts_shadows)
+    shown_by = (instancer or obj).original.name_full
+    note = note or gamut_note
+    return SceneLight(name, obj.name, shown_by, signature, receivers, excluded, unlit_reason, note, casts_shadows)
 
 
 def make_light(light: SceneLight) -> Any:  # noqa: ANN401  a skinglow.Light

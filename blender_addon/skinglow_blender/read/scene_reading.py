@@ -71,7 +71,7 @@ def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
         if obj.type == "LIGHT":
             if is_visible(instancer or obj):
                 name = f"{obj.name} in {instancer.name}" if instancer else obj.name
-                lights.append(read_light(obj, matrix, name, target))
+                lights.append(read_light(obj, matrix, name, target, instancer))
         elif obj.type == "MESH" and obj.skinglow.enabled:
             skin = read_skin(obj, matrix)
             if skin.key not in seen:

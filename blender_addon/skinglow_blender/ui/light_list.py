@@ -36,6 +36,7 @@ class LightRow(bpy.types.PropertyGroup):
     distance: FloatProperty(default=-1.0)
     reason: StringProperty()
     note: StringProperty()
+    object: StringProperty()
     swatch: FloatVectorProperty(
         name="Color",
         subtype="COLOR",
@@ -132,7 +133,7 @@ def _fill(lights: LightList, rows: list[dict[str, Any]]) -> None:
     lights.active = 0
     for i, found in enumerate(sorted(rows, key=lambda row: (-row["share"], bool(row["reason"]), row["name"]))):
         row = lights.rows.add()
-        for field in ("name", "kind", "share", "weight", "reason", "note"):
+        for field in ("name", "kind", "share", "weight", "reason", "note", "object"):
             setattr(row, field, found[field])
         row.distance = -1.0 if found["distance"] is None else found["distance"]
         if row.name == chosen:

@@ -43,7 +43,7 @@ class SKINGLOW_UL_lights(bpy.types.UIList):  # noqa: N801  Blender's naming
         if row.kind == "WORLD":
             return
         button = line.operator("skinglow.select_light", text="", icon="RESTRICT_SELECT_OFF", emboss=False)
-        button.light = row.name
+        button.light = row.object
 
 
 class _Lights(SkinPanel):

@@ -172,7 +172,7 @@ class SKINGLOW_OT_select_light(_SkinOperator, bpy.types.Operator):  # noqa: N801
     bl_description = "Select this light in the scene and keep the skin as the active object"
     bl_options = {"REGISTER", "UNDO", "INTERNAL"}
 
-    light: StringProperty(name="Light", description="Name of the light, or '<light> in <instancer>'")
+    light: StringProperty(name="Light", description="Name, with its library, of the light object or of its instancer")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -183,11 +183,7 @@ class SKINGLOW_OT_select_light(_SkinOperator, bpy.types.Operator):  # noqa: N801
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         def select() -> str:
-            objects = context.view_layer.objects
-            # An instance cannot be selected: its instancer can.
-            parts = self.light.split(" in ")
-            names = [self.light, *(" in ".join(parts[i:]) for i in range(1, len(parts)))]
-            light = next((objects[name] for name in names if name in objects), None)
+            light = next((obj for obj in context.view_layer.objects if obj.name_full == self.light), None)
             if light is None:
                 raise SkinError(f"'{self.light}' is not in this view layer: enable its collection to select it")
             if light.hide_select or not light.visible_get():
