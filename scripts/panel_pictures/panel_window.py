@@ -1,19 +1,21 @@
-"""Runs in a Blender with a window: makes a skin by clicking the panel's button, and takes a picture of the panel.
+"""Runs in a Blender with a window: makes a skin by clicking the panel's button, and takes pictures on the way.
 
-Arguments after "--": the picture's file, the add-on's folder, the core's folder.
+Arguments after "--": the head's mesh, the folders of the demo's steps, the add-on and the core, and three picture
+files: before the click, after it, and the ear.
 """
 
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-picture, addon_folder, core_folder = sys.argv[sys.argv.index("--") + 1 :]
-sys.path[:0] = [str(Path(__file__).parent), addon_folder]
+head_mesh, demo_folder, addon_folder, core_folder, before, after, close = sys.argv[sys.argv.index("--") + 1 :]
+sys.path[:0] = [str(Path(__file__).parent), demo_folder, addon_folder]
 sys.path.append(core_folder)
 
 import bpy  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
-from panel_scene import build_scene  # noqa: E402
+from blender_scene import views_of  # noqa: E402
+from guide_scene import build_guide_scene  # noqa: E402
 from window_steps import (  # noqa: E402
     area_of,
     click,
@@ -25,34 +27,46 @@ from window_steps import (  # noqa: E402
     wait_for,
 )
 
+#: Seconds for the viewport's render by software.
+RENDERED = 40.0
+MEASURED = 300
+
 
 def steps() -> Iterator[float | None]:
     with in_view():
-        head = build_scene()
-    bpy.context.scene.render.engine = "CYCLES"
-    bpy.context.scene.cycles.use_denoising = False
-    bpy.context.scene.cycles.use_preview_denoising = False
-    bpy.context.scene.cycles.preview_samples = 8
+        head = build_guide_scene(head_mesh)
     yield 0.5
-    with in_view():
-        bpy.ops.view3d.view_axis(type="FRONT")
-        bpy.ops.view3d.view_selected()
+    _look_at(head, *views_of(head)[""])
     yield from open_sidebar("Skinglow", bpy.types.SKINGLOW_PT_sidebar)
+    with in_view():
+        save_picture(before)
     sidebar = region_of(area_of("VIEW_3D"), "UI")
     yield from click(sidebar.x + sidebar.width // 2, sidebar.y + sidebar.height - 52)
-    yield from wait_for(lambda: bpy.data.objects["Head"].skinglow.enabled, 120, "the button to make a skin")
-    head = bpy.data.objects["Head"]
-    yield from wait_for(
-        lambda: len(bpy.context.window_manager.skinglow_lists) and bpy.context.window_manager.skinglow_lists[0].rows,
-        30,
-        "the list of lights",
-    )
-    area_of("VIEW_3D").spaces.active.shading.type = "RENDERED"
+    yield from wait_for(lambda: bpy.data.objects["Head"].skinglow.enabled, MEASURED, "the button to make a skin")
+    lists = bpy.context.window_manager.skinglow_lists
+    yield from wait_for(lambda: len(lists) and lists[0].rows, 60, "the list of lights")
+    space = area_of("VIEW_3D").spaces.active
+    space.shading.type = "RENDERED"
     area_of("VIEW_3D").tag_redraw()
-    yield 25.0
+    yield RENDERED
     with in_view():
-        save_picture(picture)
-    print("MADE", head.name, flush=True)
+        save_picture(after)
+    head = bpy.data.objects["Head"]
+    _look_at(head, *views_of(head)["_ear"])
+    space.show_region_ui = space.overlay.show_overlays = space.show_gizmo = False
+    area_of("VIEW_3D").tag_redraw()
+    yield RENDERED
+    with in_view():
+        save_picture(close)
+
+
+def _look_at(head: bpy.types.Object, point: object, height: float) -> None:
+    """From the front and a little from the ear's side."""
+    region = area_of("VIEW_3D").spaces.active.region_3d
+    region.view_perspective = "PERSP"
+    region.view_location = head.matrix_world @ point
+    region.view_rotation = (0.66, 0.63, 0.29, 0.29)
+    region.view_distance = 1.6 * height
 
 
 sb.register()

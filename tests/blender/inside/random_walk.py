@@ -23,7 +23,7 @@ from inside.scenes import (
     patch,
     render_settings,
 )
-from inside.walk_edits import SceneEdits
+from inside.walk_mesh_edits import MeshEdits
 
 THIN = [0.0, 1.0, 2.0, 3.0]
 LIBRARY = "library.blend"
@@ -31,7 +31,7 @@ LIBRARY = "library.blend"
 TRACE = bool(os.environ.get("SKINGLOW_TRACE"))
 
 
-class Walk(SceneEdits):
+class Walk(MeshEdits):
     """All edits, the steps of the walk, and what is compared after each."""
 
     def __init__(self, seed, folder):
@@ -65,7 +65,7 @@ class Walk(SceneEdits):
         elif len(obj.material_slots) < 3:
             obj.data.materials.append(material)
         if self.random.random() < 0.5:
-            sb.make_skin(obj, thickness=THIN, mode="paper")
+            sb.make_skin(obj, thickness=[1.0] * len(obj.data.vertices), mode="paper")
 
     def from_library(self, linked, names):
         with bpy.data.libraries.load(str(self.folder / LIBRARY), link=linked) as (_source, target):
@@ -171,11 +171,12 @@ class Walk(SceneEdits):
                  self.constrain, self.key, self.drive, self.exclude, self.hide_collection, self.close_eye,
                  self.instance, self.move_empty, self.delete_empty, self.frame, self.frame, self.add_skin,
                  self.duplicate_skin, self.delete_skin, self.move_skin, self.mode, self.hide_light_in_renders,
+                 self.add_modifier, self.remove_modifier, self.apply_scale, self.join, self.switch_slot,
                  self.push_undo, self.undo)  # fmt: skip
         seldom = (self.save_and_load, self.render, self.remove_skin, self.table_size, self.change_material, self.append,
                   self.link_library, self.override, self.move_override, self.move_override, self.add_view_layer,
                   self.switch_view_layer, self.switch_view_layer, self.switch_scene, self.engine,
-                  self.playback)  # fmt: skip
+                  self.playback, self.reload_library)  # fmt: skip
         edit = self.random.choice(seldom if self.random.random() < 0.12 else often)
         if TRACE:
             print(edit.__name__, flush=True)
