@@ -21,7 +21,17 @@ from .errors import SkinError
 from .live import handlers
 from .live.live_update import Rebuilt
 from .show import material_settings
-from .ui import light_list, lut_preview, main_panel, material_operators, measuring_operators, menus, operators, presets
+from .ui import (
+    light_list,
+    lut_preview,
+    main_panel,
+    material_operators,
+    measuring_operators,
+    menus,
+    operators,
+    presets,
+    slot_choice,
+)
 
 bl_info = {
     "name": "Skinglow",
@@ -67,6 +77,7 @@ _PARTS = (
     light_list,
     operators,
     material_operators,
+    slot_choice,
     measuring_operators,
     presets,
     main_panel,

@@ -73,6 +73,18 @@ class Studio:
                 self.render(f"physical_{weights}{view}.png", view)
         self.lights["physical"] = sb.light_report(self.head, bpy.context.evaluated_depsgraph_get())
 
+    def show_light_output(self) -> None:
+        """The picture, and the Light of the Skinglow node as an AOV: both linear, in an array file."""
+        stage.add_light_aov(self.scene, self.head)
+        settings = self.scene.render.image_settings
+        settings.file_format, settings.color_depth = "OPEN_EXR", "32"
+        self.render("light_output_picture.exr", "_ear")
+        with stage.shown_pass(self.scene, stage.AOV):
+            self.render("light_output_aov.exr", "_ear")
+        settings.file_format, settings.color_depth = "PNG", "8"
+        names = ("picture", "aov")
+        np.savez(OUT / "light_output.npz", **{n: stage.pixels_of(OUT / f"light_output_{n}.exr") for n in names})
+
     def render_transmitted_light(self) -> None:
         """Renders only the glow, as linear EXR: a box filter as in POV-Ray, alpha for the outline."""
         scene, settings = self.scene, self.scene.render.image_settings
@@ -90,7 +102,7 @@ class Studio:
 
 def main() -> dict[str, Any]:
     started = time.monotonic()
-    step = Steps(of=9)
+    step = Steps(of=10)
     step("loading the head")
     studio = Studio()
     stage.add_rig(studio.scene, JOB["rigs"]["table1"], studio.center)
@@ -122,6 +134,8 @@ def main() -> dict[str, Any]:
     studio.show("rim")
     step("Cycles: mode physical, a light behind the ear")
     studio.show_physical()
+    step("Cycles: the transmitted light as an AOV")
+    studio.show_light_output()
     np.savez(OUT / "tables.npz", **studio.tables)
     return {
         "blender": JOB["host"],

@@ -12,6 +12,7 @@ import bmesh
 
 # isort: off  (importing bpy is what makes the other two importable in the wheels)
 import bpy
+import numpy as np
 from mathutils import Matrix, Vector
 
 # isort: on
@@ -170,6 +171,56 @@ def transmitted_light_only(head: bpy.types.Object) -> Iterator[None]:
         tree.links.new(source, surface)
         for other in others:
             other.hide_render = False
+
+
+AOV = "Transmitted Light"
+
+
+def add_light_aov(scene: bpy.types.Scene, head: bpy.types.Object) -> None:
+    """Connects the Light of the head's Skinglow node with an AOV of the view layer."""
+    tree = head.active_material.node_tree
+    light = next(n.outputs["Light"] for n in tree.nodes if n.bl_idname == "ShaderNodeGroup")
+    out = tree.nodes.new("ShaderNodeOutputAOV")
+    if hasattr(out, "aov_name"):
+        out.aov_name = AOV
+    else:
+        out.name = AOV  # before Blender 4.2
+    tree.links.new(light, out.inputs["Color"])
+    aov = scene.view_layers[0].aovs.add()
+    aov.name, aov.type = AOV, "COLOR"
+
+
+@contextmanager
+def shown_pass(scene: bpy.types.Scene, name: str) -> Iterator[None]:
+    """Context manager in which renders show a pass in place of the picture."""
+    if bpy.app.version >= (5, 0, 0):
+        tree = bpy.data.node_groups.new("Pass", "CompositorNodeTree")
+        tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
+        scene.compositing_node_group = tree
+        out = tree.nodes.new("NodeGroupOutput")
+    else:
+        scene.use_nodes = True
+        tree = scene.node_tree
+        tree.nodes.clear()
+        out = tree.nodes.new("CompositorNodeComposite")
+    tree.links.new(tree.nodes.new("CompositorNodeRLayers").outputs[name], out.inputs[0])
+    try:
+        yield
+    finally:
+        if bpy.app.version >= (5, 0, 0):
+            scene.compositing_node_group = None
+        else:
+            scene.use_nodes = False
+
+
+def pixels_of(path: Path) -> np.ndarray:
+    """An image file's linear pixels (height, width, 3), top row first."""
+    image = bpy.data.images.load(str(path))
+    width, height = image.size
+    pixels = np.empty(4 * width * height, np.float32)
+    image.pixels.foreach_get(pixels)
+    bpy.data.images.remove(image)
+    return pixels.reshape(height, width, 4)[::-1, :, :3]
 
 
 def center_of(head: bpy.types.Object) -> Vector:

@@ -36,6 +36,7 @@ def draw_all(out: Path, numbers: dict[str, Any]) -> None:
     pictures(out / "color_change.png", out, [("orange", "orange light"), ("blue", "blue light")])
     pictures(out / "rim.png", out, [("rim", "rim lights")])
     physical(out / "physical.png", out)
+    light_output(out / "light_output.png", out, 2.0 ** numbers["exposure_stops"])
     hosts(out / "blender_and_povray.png", out, numbers)
 
 
@@ -96,6 +97,24 @@ def physical(path: Path, out: Path) -> None:
         axis.axis("off")
         if not view:
             axis.set_title(f"physical: {titles[weights]}", loc="left")
+    save(figure, path)
+
+
+def light_output(path: Path, out: Path, exposure: float) -> None:
+    """The picture, the light in it as an AOV, and the picture with that light in another color, by arithmetic alone."""
+    with np.load(out / "light_output.npz") as file:
+        picture, light = file["picture"], file["aov"]
+    teal = light.max(axis=2, keepdims=True) * np.array((0.05, 0.75, 1.0))
+    shown = {
+        "the picture": picture,
+        "Light of the Skinglow node as an AOV": light,
+        "the picture - AOV + AOV in another color": picture - light + teal,
+    }
+    figure, axes = plt.subplots(1, 3, figsize=(13.2, 4.7))
+    for axis, (title, linear) in zip(axes, shown.items(), strict=True):
+        axis.imshow(to_screen(linear * exposure))
+        axis.axis("off")
+        axis.set_title(title, loc="left")
     save(figure, path)
 
 

@@ -49,6 +49,11 @@ def write(out: Path, numbers: dict[str, Any]) -> None:
             "reach (the corners of the eyes); lighting per pixel does not.",
         ),
         picture(
+            "light_output.png",
+            "The transmitted light as an AOV",
+            "Light of the Skinglow node, written beside the picture: compositing changes it without another render.",
+        ),
+        picture(
             "blender_and_povray.png",
             "The same light in Blender and in POV-Ray",
             "Transmitted light only, as linear EXR, without antialiased edges: "

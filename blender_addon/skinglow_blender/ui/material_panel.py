@@ -93,11 +93,9 @@ def _draw_socket(layout: bpy.types.UILayout, node: bpy.types.Node, name: str) ->
 
 
 def _draw_light_shown_by(layout: bpy.types.UILayout, material: bpy.types.Material) -> None:
-    row = layout.split(factor=0.4, align=True)
-    label = row.row()
-    label.alignment = "RIGHT"
-    label.label(text="Light Shown By")
-    draw_shown_by(row.row(align=True), light_shown_by(material))
+    column = layout.column(align=True)
+    column.label(text="Light Shown By")
+    draw_shown_by(column.row(align=True), light_shown_by(material))
 
 
 def draw_shown_by(row: bpy.types.UILayout, now: str) -> None:

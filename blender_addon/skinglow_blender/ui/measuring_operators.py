@@ -2,7 +2,7 @@
 """The operators that measure thickness: in the background of a window, synchronously from scripts."""
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty
+from bpy.props import CollectionProperty, EnumProperty, FloatProperty
 
 from ..commands import skin
 from ..errors import SkinError
@@ -12,6 +12,7 @@ from ..session import SESSION
 from ..skin_settings import LIGHTINGS, MODES, PRESETS
 from ..thickness import thickness_attribute
 from ..thickness.measuring import Measuring
+from . import slot_choice
 from .operators import selected_meshes, selected_skins
 
 #: Seconds between two checks of the thread.
@@ -182,6 +183,14 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
         options={"SKIP_SAVE"},
         description="Length of one Blender unit; 0 uses the unit scale of the scene",
     )
+    slots: CollectionProperty(name="Slots", type=slot_choice.SlotChoice, options={"SKIP_SAVE"})
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        layout = self.layout
+        layout.use_property_split, layout.use_property_decorate = True, False
+        for name in CHOICES:
+            layout.prop(self, name)
+        slot_choice.draw(layout, self.slots)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -212,7 +221,11 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
             obj.skinglow.unit_mm = self._settings(obj).get("unit_mm", obj.skinglow.unit_mm)
 
     def finish(self, _context: bpy.types.Context, names: list[str]) -> str:
-        states = [skin.make_skin(obj, **self._settings(obj)) for obj in map(_object, names)]
+        objects = [_object(name) for name in names]
+        states = [
+            skin.make_skin(obj, slots=slot_choice.chosen(self.slots, obj), **self._settings(obj)) for obj in objects
+        ]
+        slot_choice.offer(self.slots, objects)
         return "; ".join(f"{s.name}: {s.thickness_mm[0]:.2f} to {s.thickness_mm[1]:.2f} mm thick" for s in states)
 
     def _settings(self, obj: bpy.types.Object) -> dict[str, object]:

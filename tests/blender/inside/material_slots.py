@@ -119,11 +119,18 @@ def check_thickness_of_what_is_not_skin_does_not_matter(_work):
     assert sb.health(obj) == []
 
 
-def check_button_keeps_the_choice(_work):
+def check_button(_work):
+    """It keeps the choice; Adjust Last Operation, which calls it with what was changed, makes another one."""
     obj = head(slots=["Skin"])
     obj.skinglow.unit_mm = 10.0
     assert bpy.ops.skinglow.make() == {"FINISHED"}
     assert with_node(obj) == ["Skin"]
+    choices = [{"name": name, "is_skin": name in ("Eyes", "Teeth")} for name in NAMES]
+    assert bpy.ops.skinglow.make(slots=choices) == {"FINISHED"}
+    assert with_node(obj) == ["Eyes", "Teeth"]
+    none = [{"name": name, "is_skin": False} for name in NAMES]
+    refused(RuntimeError, "at least one slot", bpy.ops.skinglow.make, slots=none)
+    assert with_node(obj) == ["Eyes", "Teeth"]
 
 
 def check_linked_material_is_left_out(work):
