@@ -22,6 +22,7 @@ from .live import handlers
 from .live.live_update import Rebuilt
 from .show import material_settings
 from .ui import (
+    freeze_operators,
     light_list,
     lut_preview,
     main_panel,
@@ -79,6 +80,7 @@ _PARTS = (
     material_operators,
     slot_choice,
     measuring_operators,
+    freeze_operators,
     presets,
     main_panel,
     menus,

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .commands.freezing import Freezing
     from .read.scene_reading import SceneReading
     from .show.lut_image import Atlas
     from .table.occlusion import Occluders
@@ -48,6 +49,8 @@ class Session:
         self.thumbnails: dict[str, tuple[tuple, float]] = {}
         #: The thickness measurement that runs in a thread.
         self.measuring: Measuring | None = None
+        #: Light that a window is freezing to images, frame by frame.
+        self.freezing: Freezing | None = None
 
     def forget_tables(self) -> None:
         """Drops all tables, so that the next update recomputes and shows every one."""
@@ -59,10 +62,10 @@ class Session:
         self.reading = None
 
     def forget(self) -> None:
-        """Resets to the state before the first update; a measurement goes on."""
-        measuring, updates = self.measuring, self.updates
+        """Resets to the state before the first update; measuring and freezing go on."""
+        kept = self.measuring, self.freezing, self.updates
         self.__init__()
-        self.measuring, self.updates = measuring, updates
+        self.measuring, self.freezing, self.updates = kept
 
 
 SESSION = Session()

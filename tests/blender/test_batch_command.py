@@ -1,6 +1,8 @@
 """The batch as a program: `blender -b scene.blend --python-expr ...`, its exit codes and what it says."""
 
 import json
+import os
+import shutil
 import signal
 import subprocess
 import time
@@ -179,3 +181,27 @@ def test_process_of_a_wheel_ends_with_the_exit_code(host, tmp_path: Path) -> Non
         )
         assert done.returncode == wanted, done.stdout + done.stderr
     assert (tmp_path / "out" / "Key" / "0001.exr").exists()
+
+
+def test_freeze_saves_a_file_that_renders_without_the_add_on(program: Program, tmp_path: Path) -> None:
+    frozen = tmp_path / "frozen.blend"
+    done = program.run(["--freeze", str(frozen), "--frames", "2-3", "--out", str(tmp_path / "light")])
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "Patch: frames 2 to 3 frozen to" in done.stderr
+    files = sorted(path.name for path in (tmp_path / "light" / "Patch").iterdir())
+    assert files == ["light_0002.exr", "light_0003.exr"]
+    program.run(["--frames", "3", "--out", str(tmp_path / "live")])
+    assert difference_without_add_on(program, frozen, tmp_path) == 0.0
+    shutil.rmtree(tmp_path / "light")
+    assert difference_without_add_on(program, frozen, tmp_path) > 0.1
+    refused = program.run(["--freeze", str(frozen), "--rigs", "Key"])
+    assert refused.returncode == 2 and "leave out --rigs" in refused.stderr
+
+
+def difference_without_add_on(program: Program, file: Path, folder: Path) -> float:
+    """The largest one between frame 3 of a file as it renders without the add-on, and as it was rendered live."""
+    command = [program.host.path, "-b", "--factory-startup", str(file), "-o", f"{folder}/without/####", "-f", "3"]
+    subprocess.run(command, env=program.environment, capture_output=True, timeout=SECONDS, check=True)
+    pictures = [str(folder / "live/scene/0003.exr"), str(folder / "without/0003.exr")]
+    compared = json.loads(subprocess.check_output([os.environ["SKINGLOW_CLI"], "compare", "--json", *pictures]))
+    return max(compared[channel]["max"] for channel in ("red", "green", "blue"))

@@ -12,7 +12,9 @@ from typing import NoReturn
 
 import bpy
 
+from ..commands.freezing import FOLDER, freeze
 from ..errors import SkinError
+from .frames import parse_frames
 from .pictures import PATTERN
 from .render import BatchStep, render_batch
 
@@ -50,9 +52,16 @@ def parser() -> argparse.ArgumentParser:
         help="a light or a collection of lights by name, NAME=LIGHT,LIGHT, or a rig file (.json, .sl) "
         "(default: the lights of the scene, unchanged, as one rig 'scene')",
     )
-    add("--out", default="//batch", metavar="FOLDER", help="output folder (default: //batch, next to the blend file)")
+    add("--out", metavar="FOLDER", help="output folder (default: //batch, next to the blend file)")
     add("--pattern", default=PATTERN, help=f"pattern of the file names (default: {PATTERN})".replace("%", "%%"))
     add("--onto", metavar="SKIN", help="move the point of rig files to the reference point of this object")
+    add(
+        "--freeze",
+        type=Path,
+        metavar="FILE",
+        help="render nothing: write the light of all skins in these frames to images (in --out, //skinglow_frozen by "
+        "default) and save as this blend file, which then renders without Skinglow",
+    )
     add("--again", action="store_true", help="also render pictures that are up to date")
     add(
         "--worker",
@@ -73,10 +82,14 @@ def run(arguments: Sequence[str]) -> int:
         with _stopping_after_a_picture() as progress:
             _open(options.blend)
             scene = _named(bpy.data.scenes, options.scene, "scene") or bpy.context.scene
-            if options.out.startswith("//") and not bpy.data.filepath:
+            out = options.out or (FOLDER if options.freeze else "//batch")
+            if out.startswith("//") and not bpy.data.filepath:
                 raise SkinError("--out: the scene was not saved, so // has no folder: give a folder")
+            if options.freeze:
+                _freeze(options, out, scene, progress)
+                return DONE
             result = render_batch(
-                options.out,
+                out,
                 options.frames,
                 options.rigs,
                 scene=scene,
@@ -95,6 +108,25 @@ def run(arguments: Sequence[str]) -> int:
     counts = f"{len(result.rendered)} rendered, {len(result.kept)} kept, {len(result.failed)} failed"
     _say(f"skinglow: {counts}; {result.manifest}")
     return SOME_FAILED if result.failed else DONE
+
+
+def _freeze(options: argparse.Namespace, out: str, scene: bpy.types.Scene, progress: "_Progress") -> None:
+    """Freezes from the first to the last of the frames, and saves."""
+    if options.rigs is not None:
+        raise SkinError("--freeze: the lights are frozen as they are in the scene: leave out --rigs")
+    frames = parse_frames(options.frames) if options.frames else (scene.frame_start, scene.frame_end)
+
+    def tell(done: float) -> None:
+        if progress.stopped:
+            raise KeyboardInterrupt
+        _say(f"frozen: {done:.0%}")
+
+    for each in freeze(None, min(frames), max(frames), out, scene=scene, progress=tell):
+        _say(f"skinglow: {', '.join(each.skins)}: frames {each.first} to {each.last} frozen to {each.folder}")
+    try:
+        bpy.ops.wm.save_as_mainfile(filepath=str(options.freeze.absolute()))
+    except RuntimeError as error:
+        raise SkinError(f"--freeze: {' '.join(str(error).split())}") from error
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:

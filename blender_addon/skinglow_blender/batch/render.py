@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import bpy
 
+from ..commands.freezing import frozen_state
 from ..commands.health import require_health
 from ..commands.skin import skin_settings_of
 from ..errors import SkinError
@@ -81,7 +82,9 @@ def render_batch(
         frames = range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
     frame_list = parse_frames(frames)
     _check_scene(scene)
-    require_health(scene)
+    require_health(scene, frame_list)
+    if rigs is not None:
+        _require_live(scene)
     ready = [make_ready(scene, rig) for rig in as_rigs(rigs)]
     pictures = plan_pictures(scene, [r.rig.name for r in ready], frame_list, pattern)
     where = Path(bpy.path.abspath(str(folder))).absolute()
@@ -101,6 +104,13 @@ def _check_scene(scene: bpy.types.Scene) -> None:
         raise SkinError(f"Scene '{scene.name}' has no camera: add one, or set it in the Scene properties")
     if not any(obj.type == "MESH" and obj.skinglow.enabled for obj in scene.objects):
         raise SkinError(f"Scene '{scene.name}' has no skin: create one with make_skin or the button Make Skin Glow")
+
+
+def _require_live(scene: bpy.types.Scene) -> None:
+    """Raises SkinError for a skin that no rig can light."""
+    frozen = [obj.name for obj in scene.objects if obj.type == "MESH" and frozen_state(obj) and not obj.hide_render]
+    if frozen:
+        raise SkinError(f"{', '.join(frozen)}: frozen, so they do not follow light rigs: unfreeze them first")
 
 
 def _keep(undo: ExitStack, scene: bpy.types.Scene) -> None:

@@ -14,7 +14,9 @@ from ..commands import light_listing, skin
 from ..errors import SkinError
 from ..read.scene_reading import read_scene, read_skin
 from ..session import SESSION
+from ..show.frozen import frozen_file, is_frozen
 from .inputs import skin_values
+from .manifest import file_digest
 
 
 class Shown:
@@ -67,7 +69,6 @@ def _record(shown: Shown, depsgraph: bpy.types.Depsgraph) -> None:
 def _skin_entry(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> dict[str, Any]:
     evaluated = obj.evaluated_get(depsgraph)
     seen = read_skin(evaluated, evaluated.matrix_world)
-    table = skin.lut(obj, depsgraph)
     report = light_listing.light_report(obj, depsgraph)
     return {
         "name": obj.name_full,
@@ -81,13 +82,18 @@ def _skin_entry(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> dict[s
         if report
         else [0.0] * 3,
         "settings": skin_values(evaluated),
-        "lookup": {
-            "sha256": hashlib.sha256(np.ascontiguousarray(table, "<f4").tobytes()).hexdigest(),
-            "entries": len(table),
-            "max_thickness_mm": seen.base[2],
-        },
+        "lookup": _lookup_entry(obj, depsgraph, seen.base[2]),
         "lamps": [_light_entry(row) for row in report],
     }
+
+
+def _lookup_entry(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, max_thickness_mm: float) -> dict[str, Any]:
+    if is_frozen(obj.skinglow.group):
+        file = frozen_file(obj.skinglow.group, depsgraph.scene.frame_current)
+        return {"frozen": file.name, "sha256": file_digest(file), "max_thickness_mm": max_thickness_mm}
+    table = skin.lut(obj, depsgraph)
+    digest = hashlib.sha256(np.ascontiguousarray(table, "<f4").tobytes()).hexdigest()
+    return {"sha256": digest, "entries": len(table), "max_thickness_mm": max_thickness_mm}
 
 
 def _light_entry(row: dict[str, Any]) -> dict[str, Any]:

@@ -34,9 +34,10 @@ from ..show.frozen import (
     is_frozen,
     unfreeze_group,
 )
-from ..show.lut_image import ensure_images, group_layout
+from ..show.group_sockets import replace_group
+from ..show.lut_image import ensure_images, group_layout, shown_image
 from ..show.skin_group import build_plain, new_group
-from ..show.skin_material import skin_node
+from ..show.skin_material import skin_node, skin_nodes
 from ..show.surface_group import build_surface
 from ..table.occlusion import with_visible_fractions
 from .skin import skin_settings_of
@@ -118,16 +119,17 @@ class Freezing:
     def __init__(
         self, skins: Iterable[bpy.types.Object], first: int, last: int, folder: str, scene: bpy.types.Scene
     ) -> None:
-        if last < first:
-            raise SkinError(f"The frames {first} to {last} are reversed: the first one has to come first")
+        groups = _sharing_materials(list(skins))
         if scene.camera is None and not any(marker.camera for marker in scene.timeline_markers):
             raise SkinError(f"Scene '{scene.name}' has no camera: add one, or set it in the Scene properties")
+        if last < first:
+            raise SkinError(f"The frames {first} to {last} are reversed: the first one has to come first")
         if folder.startswith("//") and not bpy.data.filepath:
             raise SkinError("Save the file first: the images are written next to it")
         self.scene, self.first, self.last = scene, first, last
         self.before = scene.frame_current, scene.frame_subframe
         parent = Path(bpy.path.abspath(folder)).absolute()
-        self.parts = [_Part(each, parent) for each in _sharing_materials(list(skins))]
+        self.parts = [_Part(each, parent) for each in groups]
         self.frame = first
         self._restarts = 0
         try:
@@ -265,8 +267,10 @@ def unfreeze(objects: Iterable[bpy.types.Object] | None = None) -> list[str]:
 
 def frozen_state(obj: bpy.types.Object) -> Frozen | None:
     """How a skin is frozen; None: it is live."""
-    group = skin_settings_of(obj).group
-    return Frozen((obj.name,), *frozen_frames(group), frozen_folder(group)) if is_frozen(group) else None
+    group = obj.skinglow.group
+    if not is_frozen(group) or shown_image(group) is None:
+        return None
+    return Frozen((obj.name,), *frozen_frames(group), frozen_folder(group))
 
 
 def _sharing_materials(wanted: list[bpy.types.Object]) -> list[list[bpy.types.Object]]:
@@ -405,7 +409,8 @@ def _group_of_its_own(part: _Part) -> bpy.types.NodeTree:
     if part.layout is not None:
         build_surface(group, part.layout)
     for material in set().union(*map(_skin_materials, part.skins)):
-        skin_node(material).node_tree = group
+        for node in skin_nodes(material):
+            replace_group(node, group)
     for obj in part.skins:
         obj.skinglow.group = group
     return group

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether everything that makes an object glow agrees: its nodes, images, materials, thickness and mesh."""
 
+from collections.abc import Iterable
+
 import bpy
 import numpy as np
 
@@ -12,12 +14,14 @@ from ..show.frozen import frozen_file, frozen_frames, frozen_mark, is_frozen
 from ..show.lut_image import SLOTS, images_of, shown_image
 from ..thickness import thickness_attribute
 from ..thickness.thickness_attribute import KNOWN_ATTRIBUTE, THICKNESS_ATTRIBUTE
+from .freezing import unfreeze
 from .material_health import REPAIR, Fault, material_faults, measured_slots
 from .skin import make_skin, skin_settings_of
 
 MEASURE = "press Measure Thickness"
 CHOOSE_REFERENCE = "Choose them in the panel Lookup Table, under Light Distance From"
 FREEZE_AGAIN = "unfreeze it, or then freeze it again"
+FREEZE_MORE = "unfreeze it, or then freeze more frames"
 
 
 def health(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None = None) -> list[Fault]:
@@ -28,9 +32,10 @@ def health(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None = None) 
     """
     if obj.type != "MESH" or not obj.skinglow.enabled:
         skin_settings_of(obj)
+    depsgraph = depsgraph or bpy.context.evaluated_depsgraph_get()
     faults = quick_faults(obj)
     if not any(fault.remedy == MEASURE for fault in faults):
-        faults += _thickness_faults(obj, depsgraph or bpy.context.evaluated_depsgraph_get())
+        faults += _thickness_faults(obj, depsgraph)
     told = SESSION.faults.get(obj.name_full)
     if told is not None and not faults:
         faults.append(Fault(told, REPAIR))
@@ -77,9 +82,9 @@ def _frozen_faults(obj: bpy.types.Object, group: bpy.types.NodeTree) -> list[Fau
         return [Fault(f"Its frozen image {frozen_file(group, frame)} is missing", FREEZE_AGAIN)]
     if not first <= frame <= last:
         nearest = min(max(frame, first), last)
-        return [Fault(f"It is frozen from frame {first} to {last}: frame {frame} shows frame {nearest}", FREEZE_AGAIN)]
+        return [Fault(f"It is frozen from frame {first} to {last}: frame {frame} shows frame {nearest}", FREEZE_MORE)]
     if frozen_mark(group, obj.skinglow.row, frame) not in ("", mark):
-        return [Fault("Its lights, its place or its settings changed after it was frozen", FREEZE_AGAIN)]
+        return [Fault("Its lights, place or settings changed after it was frozen", FREEZE_AGAIN)]
     return []
 
 
@@ -107,19 +112,26 @@ def _thickness_faults(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> 
 def repair(obj: bpy.types.Object) -> None:
     """Makes a skin anew as far as something is wrong with it: nodes, images, thickness."""
     settings = obj.skinglow
+    if is_frozen(settings.group) and shown_image(settings.group) is None:
+        unfreeze([obj])
     if settings.group is not None and len(images_of(settings.group)) != len(SLOTS):
         settings.property_unset("group")
     make_skin(obj)
 
 
-def require_health(scene: bpy.types.Scene) -> None:
-    """Raises SkinError with the faults of all skins that the scene renders, but not for hints."""
-    faults = [
-        f"'{obj.name}': {fault}"
-        for obj in scene.objects
-        if obj.type == "MESH" and obj.skinglow.enabled and not obj.hide_render
-        for fault in health(obj)
-        if not fault.is_hint
-    ]
+def require_health(scene: bpy.types.Scene, frames: Iterable[int]) -> None:
+    """Raises SkinError with the faults of all skins that the scene renders, in these frames, but not for hints."""
+    faults = []
+    for obj in scene.objects:
+        if obj.type != "MESH" or not obj.skinglow.enabled or obj.hide_render:
+            continue
+        # The scene may be at any frame.
+        found = [fault for fault in health(obj) if not fault.is_hint and fault.remedy != FREEZE_MORE]
+        if is_frozen(obj.skinglow.group):
+            first, last = frozen_frames(obj.skinglow.group)
+            missing = [frame for frame in frames if not first <= frame <= last]
+            if missing:
+                found.append(Fault(f"Frame {missing[0]} is not among its frozen ones, {first} to {last}", FREEZE_MORE))
+        faults += [f"'{obj.name}': {fault}" for fault in found]
     if faults:
         raise SkinError("; ".join(faults))

@@ -7,6 +7,7 @@ image held, the upper half what changes with the frames in the object's property
 row alone, and 1 in place of the strength: an object without it still does not glow.
 """
 
+import os
 from pathlib import Path
 
 import bpy
@@ -39,9 +40,7 @@ def frozen_frames(group: bpy.types.NodeTree) -> tuple[int, int]:
 def frozen_folder(group: bpy.types.NodeTree) -> Path:
     """The folder of a frozen group's images."""
     image = shown_image(group)
-    if image is None:
-        raise SkinError(f"The images of the frozen node group '{group.name}' were deleted: unfreeze it")
-    return Path(bpy.path.abspath(image.filepath, library=image.library)).parent
+    return Path(os.path.normpath(bpy.path.abspath(image.filepath, library=image.library))).parent
 
 
 def file_number(frame: int, first: int) -> int:
@@ -98,7 +97,7 @@ def freeze_group(
     image.colorspace_settings.name = blender_version.data_color_space(image)
     image.alpha_mode, image.use_half_precision = "CHANNEL_PACKED", False
     image.source = "SEQUENCE"
-    image.filepath = _path_in_file(file)
+    image.filepath = path_in_file(file)
     for slot, each in zip(SLOTS, live, strict=True):
         setattr(image.skinglow, slot, each)
     marked = {str(row): text for row, text in marks.items()}
@@ -107,7 +106,7 @@ def freeze_group(
     add_frozen_nodes(group)
 
 
-def _path_in_file(file: Path) -> str:
+def path_in_file(file: Path) -> str:
     """Relative to the blend file where that is possible: farms see folders under other paths."""
     try:
         return bpy.path.relpath(str(file)) if bpy.data.filepath else str(file)

@@ -65,12 +65,14 @@ def separate_copies() -> bool:
 
 
 def _follow(obj: bpy.types.Object) -> bool:
-    """Returns whether anything was moved. The number of groups only decreases, so the iteration terminates."""
+    """Returns whether anything was moved.
+
+    Each is moved to a group that precedes its own in one order of all groups, so the iteration terminates.
+    """
     nodes = [node for slot in obj.material_slots if slot.material for node in (skin_node(slot.material),) if node]
     if not nodes:
         return False
-    # A group from a library takes precedence: its material cannot be changed.
-    nodes.sort(key=lambda node: node.id_data.library is None)
+    nodes.sort(key=_precedence)
     group = nodes[0].node_tree
     moved = False
     for node in nodes:
@@ -81,6 +83,11 @@ def _follow(obj: bpy.types.Object) -> bool:
         obj.skinglow.group, obj.skinglow.row, moved = group, -1, True
         obj.update_tag(refresh={"OBJECT"})
     return moved
+
+
+def _precedence(node: bpy.types.Node) -> tuple[bool, bool, str]:
+    """A group from a library comes first, as its material cannot be changed; then a frozen one, which stays so."""
+    return node.id_data.library is None, FROZEN_PROPERTY not in node.node_tree, node.node_tree.name_full
 
 
 def remove_orphans() -> None:

@@ -3,10 +3,11 @@
 
 import bpy
 
-from ..commands.health import quick_faults
+from ..commands.health import FREEZE_AGAIN, FREEZE_MORE, quick_faults
 from ..read.measured_geometry import unit_mm
 from ..session import SESSION
-from . import lights_panel, look_panel, lookup_table_panel, material_panel, thickness_panel, tools_panel
+from ..show.frozen import is_frozen
+from . import freeze_panel, lights_panel, look_panel, lookup_table_panel, material_panel, thickness_panel, tools_panel
 from .locations import ObjectProperties, Sidebar, is_skin
 from .lut_preview import icon_of
 from .material_panel import draw_shown_by
@@ -35,6 +36,9 @@ class _Main:
             row.template_icon(icon_value=icon, scale=3.0)
         column = row.column(align=True)
         column.label(text=f"0 to {thickness_mm:.3g} mm" if icon else "No lookup yet")
+        if is_frozen(obj.skinglow.group):
+            column.label(text="Frozen", icon="FREEZE")
+            return
         column.prop(obj.skinglow, "live", toggle=True)
         column.operator("skinglow.update", text="Update Now")
 
@@ -47,8 +51,11 @@ def _draw_faults(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy
     column = box.column(align=True)
     for fault in faults:
         draw_wrapped(column, fault.what, context, icon="INFO" if fault.is_hint else "ERROR")
-    if not all(fault.is_hint for fault in faults):
+    remedies = {fault.remedy for fault in faults if not fault.is_hint}
+    if remedies - {FREEZE_AGAIN, FREEZE_MORE}:
         box.operator("skinglow.repair", text="Repair", icon="FILE_REFRESH")
+    elif remedies:
+        box.operator("skinglow.unfreeze", text="Unfreeze", icon="LIGHT_SUN")
     if any(fault.is_hint for fault in faults):
         box.label(text="Light Shown By:")
         draw_shown_by(box.row(align=True), "BOTH")
@@ -97,6 +104,7 @@ CLASSES = (
     *lights_panel.CLASSES,
     *thickness_panel.CLASSES,
     *lookup_table_panel.CLASSES,
+    *freeze_panel.CLASSES,
     *tools_panel.CLASSES,
 )
 

@@ -20,6 +20,8 @@ class SKINGLOW_MT_object(bpy.types.Menu):  # noqa: N801  Blender's naming
         if selected_skins(context):
             layout.operator("skinglow.measure_thickness")
             layout.operator("skinglow.repair")
+            layout.operator("skinglow.freeze", icon="FREEZE")
+            layout.operator("skinglow.unfreeze")
             layout.separator()
             layout.operator("skinglow.reset")
             layout.operator("skinglow.remove")

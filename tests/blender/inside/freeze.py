@@ -64,12 +64,12 @@ def pictures_of(folder, first=FIRST, last=LAST):
     return np.array([read_exr(folder / f"{frame:04d}.exr") for frame in range(first, last + 1)])
 
 
-def render_without_add_on(work, folder):
+def render_without_add_on(work, folder, last=LAST):
     """Saves the file and renders it in a Blender of its own."""
     bpy.ops.wm.save_mainfile()
     code = RENDER.format(file=bpy.data.filepath, pictures=f"{work / folder}/####")
     subprocess.run(python_command(work, code), check=True, capture_output=True, timeout=300)
-    return pictures_of(work / folder)
+    return pictures_of(work / folder, FIRST, last)
 
 
 def assert_frozen_as_live(work, **settings):
