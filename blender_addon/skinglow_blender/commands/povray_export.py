@@ -13,6 +13,7 @@ import numpy as np
 from .. import blender_version
 from ..errors import SkinError, core
 from ..read import working_space
+from ..read.mesh_reading import vertices_of_slots
 from ..read.scene_lights import make_light
 from ..read.scene_reading import SceneReading, Skin, read_scene
 from ..show.skin_material import skin_node
@@ -116,9 +117,11 @@ def _mesh_arguments(obj: bpy.types.Object, skin: Skin, base: Any) -> dict[str, A
     mesh = obj.to_mesh()
     try:
         thickness, known = read(mesh)
-        if not known.all():
+        glows = _glowing_vertices(obj, mesh)
+        unknown = np.count_nonzero(~known & glows)
+        if unknown:
             raise SkinError(
-                f"'{skin.name}': the thickness is not known at {np.count_nonzero(~known)} of {len(known)} vertices, "
+                f"'{skin.name}': the thickness is not known at {unknown} of {len(known)} vertices, "
                 "which a modifier or an edit added: apply the modifier, or press Measure Thickness"
             )
         points = np.empty(3 * len(mesh.vertices), np.float32)
@@ -131,10 +134,14 @@ def _mesh_arguments(obj: bpy.types.Object, skin: Skin, base: Any) -> dict[str, A
         smooth = np.empty(len(mesh.loop_triangles), bool)
         mesh.loop_triangles.foreach_get("use_smooth", smooth)
         matrix = np.array(obj.matrix_world, np.float64)
+        # What is not skin gets the light of the thickest.
+        texels = np.where(
+            glows, texels_per_mm(obj, skin, base.texel_mapping) * thickness.astype(np.float64), base.size - 1
+        )
         found = {
             "vertices": points.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3],
             "triangles": triangles.reshape(-1, 3),
-            "lut_u": (texels_per_mm(obj, skin, base.texel_mapping) * thickness.astype(np.float64) + 0.5) / base.size,
+            "lut_u": (texels + 0.5) / base.size,
         }
         if smooth.any():
             normals = blender_version.corner_normals(mesh)[corners] @ np.linalg.inv(matrix[:3, :3])
@@ -146,6 +153,14 @@ def _mesh_arguments(obj: bpy.types.Object, skin: Skin, base: Any) -> dict[str, A
         return found
     finally:
         obj.to_mesh_clear()
+
+
+def _glowing_vertices(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> np.ndarray:
+    """(n,) bool: the vertices of faces whose material adds light."""
+    materials = [slot.material for slot in obj.material_slots]
+    nodes = [skin_node(material) if material is not None else None for material in materials]
+    slots = [node is not None and not node.mute for node in nodes]
+    return vertices_of_slots(mesh, slots) if slots else np.ones(len(mesh.vertices), bool)
 
 
 def _camera_arguments(depsgraph: bpy.types.Depsgraph) -> dict[str, Any]:

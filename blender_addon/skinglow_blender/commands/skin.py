@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from ..errors import SkinError
+from ..live.file_upgrade import upgrade
 from ..live.live_update import Rebuilt, update_scene
 from ..read import measured_geometry, working_space, world_image
 from ..read.scene_reading import ROW_PROPERTY, read_skin
@@ -65,6 +66,7 @@ def make_skin(
         settings.setdefault("reference", "POINT")
     if "reference_object" in settings:
         settings.setdefault("reference", "OBJECT")
+    upgrade()  # a group that was appended from a file of an earlier version
     choose = choose_slots(obj, slots) if slots is not None else None
     with applied(obj.skinglow, settings):
         scene = bpy.context.scene

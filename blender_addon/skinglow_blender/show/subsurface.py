@@ -52,6 +52,9 @@ def show_light_by(material: bpy.types.Material, shown_by: str) -> None:
     for owner in dict.fromkeys([material, *(socket.id_data for socket in sockets)]):
         if owner.library is not None:
             raise SkinError(f"'{owner.name}' belongs to {owner.library.filepath}: make it local first")
+    if shown_by == "SUBSURFACE" and any(node.outputs["Light"].is_linked for node in nodes if "Light" in node.outputs):
+        # A muted node passes its Tint to Light.
+        raise SkinError(f"Light of the Skinglow node in '{material.name}' is connected: disconnect it first")
     if shown_by == "SKINGLOW":
         for socket in sockets:
             if _fade_of(socket) is None:

@@ -6,6 +6,7 @@ import skinglow_blender as sb
 from skinglow_blender.show.skin_material import skin_node
 
 from inside.bad_input import refused
+from inside.povray_files import povray
 from inside.scenes import add_light, black_material, camera_above, depsgraph, read_exr, render_settings, strips
 
 NAMES = ("Skin", "Eyes", "Teeth", "Cloth")
@@ -160,3 +161,18 @@ def check_numbers_are_those_of_one_material(work):
     sb.make_skin(strips(4, material=black_material()), thickness=[2.0] * 16, mode="physical")
     glowing(work)
     np.testing.assert_array_equal(read_exr(work / "slots.exr"), several)
+
+
+def check_povray_export(work):
+    """The light of what is not skin is left out there too, and its unknown thickness does not matter."""
+    obj = head(slots=["Skin", "Teeth"], strength=20.0)
+    known = obj.data.attributes["skinglow_thickness_known"]
+    for i in range(4, 8):
+        known.data[i].value = 0.0
+    obj.data.update()
+    camera_above()
+    render_settings(40, 40)
+    sb.export_povray(depsgraph(), work / "povray", surface=False)
+    povray(work / "povray")
+    shown = read_exr(work / "povray" / "scene.exr")[20, 5::10, 0]
+    assert shown[0] > 0.1 and shown[2] > 0.1 and max(shown[1], shown[3]) < 3e-3 * shown[0], shown

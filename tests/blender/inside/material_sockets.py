@@ -234,11 +234,9 @@ def check_another_group_keeps_what_is_connected(_work):
     assert node.inputs["Strength"].default_value == 2.5
 
 
-def check_older_groups_get_the_sockets(work):
-    """A file of an earlier version: it glows as before, and the new sockets act."""
-    obj = skin_scene()
-    before = picture(work)
-    group = obj.skinglow.group
+def make_older(group):
+    """Takes a group back to what the version before the sockets made."""
+    image = lut_image.shown_image(group)
     clear(group)
     if hasattr(group, "interface"):
         for item in [i for i in group.interface.items_tree if i.name not in ("Surface", "Shader")]:
@@ -247,20 +245,52 @@ def check_older_groups_get_the_sockets(work):
         for sockets in (group.inputs, group.outputs):
             for socket in [s for s in sockets if s.name not in ("Surface", "Shader")]:
                 sockets.remove(socket)
-    # Nodes that make it a skin's group, as they were.
     for name in lut_image.NODE_NAMES:
         texture = group.nodes.new("ShaderNodeTexImage")
-        texture.name, texture.image = name, next(i for i in bpy.data.images if i.skinglow.viewport_a is not None)
+        texture.name, texture.image = name, image
     group[lut_image.GROUP_PROPERTY] = 2
+
+
+def require_sockets(node):
+    assert [s.name for s in node.inputs if s.type != "CUSTOM"] == ["Surface", "Mask", "Thickness", "Tint", "Strength"]
+
+
+def check_older_groups_get_the_sockets(work):
+    """A file of an earlier version: it glows as before, and the new sockets act."""
+    obj = skin_scene()
+    before = picture(work)
+    make_older(obj.skinglow.group)
     bpy.ops.wm.save_as_mainfile(filepath=str(work / "earlier.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(work / "earlier.blend"))
     obj = bpy.data.objects["Patch"]
     node = node_of(obj)
     assert obj.skinglow.group[lut_image.GROUP_PROPERTY] == lut_image.GROUP_VERSION
-    assert [s.name for s in node.inputs if s.type != "CUSTOM"] == ["Surface", "Mask", "Thickness", "Tint", "Strength"]
+    require_sockets(node)
     np.testing.assert_array_equal(picture(work), before)
     node.inputs["Strength"].default_value = 2.0
     np.testing.assert_allclose(picture(work), 2.0 * before, rtol=1e-6)
     nodes = len(obj.skinglow.group.nodes)
     file_upgrade.upgrade()
     assert len(obj.skinglow.group.nodes) == nodes
+
+
+def check_an_appended_material_of_an_earlier_version(work):
+    """It gets the sockets when a skin is made with it; a linked one stays as its file has it."""
+    obj = skin_scene()
+    before = picture(work)
+    make_older(obj.skinglow.group)
+    bpy.ops.wm.save_as_mainfile(filepath=str(work / "earlier.blend"), copy=True)
+    for link in (False, True):
+        fresh()
+        with bpy.data.libraries.load(str(work / "earlier.blend"), link=link) as (_source, target):
+            target.materials = ["Black"]
+        add_light(location=(0.0, 0.0, -1.0), energy=100.0)
+        camera_above()
+        obj = patch(material=target.materials[0])
+        sb.make_skin(obj, thickness=[2.0] * 4, mode="physical")
+        assert sb.health(obj) == []
+        if link:
+            assert [s.name for s in node_of(obj).inputs if s.type != "CUSTOM"] == ["Surface"]
+        else:
+            require_sockets(node_of(obj))
+            np.testing.assert_allclose(picture(work), before, rtol=1e-6)

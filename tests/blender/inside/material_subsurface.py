@@ -175,8 +175,13 @@ def check_connected_amount_stays_connected(_work):
 
 
 def check_what_cannot_be_handed_over_is_refused(_work):
-    """A group that others use too, an animated amount: in words, and nothing is changed."""
+    """A group that others use too, an animated amount, Light in use: in words, and nothing is changed."""
     obj = skin()
+    out = material_of(obj).node_tree.nodes.new("ShaderNodeOutputAOV")
+    link = material_of(obj).node_tree.links.new(node_of(obj).outputs["Light"], out.inputs["Color"])
+    refused(sb.SkinError, "Light of the Skinglow node", show_light_by, material_of(obj), "SUBSURFACE")
+    assert not node_of(obj).mute
+    material_of(obj).node_tree.links.remove(link)
     shader = material_of(obj).node_tree.nodes["Principled BSDF"]
     weight(shader).keyframe_insert("default_value", frame=1)
     refused(sb.SkinError, "is animated", show_light_by, material_of(obj), "SKINGLOW")
