@@ -24,7 +24,7 @@ from inside.scenes import (
     patch,
     render_settings,
 )
-from inside.walk_mesh_edits import MeshEdits
+from inside.walk_mesh_edits import MeshEdits, skin_nodes
 
 THIN = [0.0, 1.0, 2.0, 3.0]
 LIBRARY = "library.blend"
@@ -67,34 +67,6 @@ class Walk(MeshEdits):
             obj.data.materials.append(material)
         if self.random.random() < 0.5:
             sb.make_skin(obj, thickness=[1.0] * len(obj.data.vertices), mode="paper")
-
-    def own_nodes(self):
-        """A skin of this file, and its node in a material of this file; None twice if there is none."""
-        pairs = [(o, n) for o in self.own_skins() for n in skin_nodes(o) if not n.id_data.library]
-        return self.pick([(o, n) for o, n in pairs if not n.node_tree.library]) or (None, None)
-
-    def copy_group(self):
-        """The node group of one material made a single user, as the number beside its name does."""
-        _obj, node = self.own_nodes()
-        if node is not None and len(bpy.data.node_groups) < 20:
-            node.node_tree = node.node_tree.copy()
-
-    def copy_material(self):
-        obj, node = self.own_nodes()
-        slots = [s for s in obj.material_slots if s.material and s.material.node_tree == node.id_data] if obj else []
-        if slots:
-            slots[0].material = slots[0].material.copy()
-
-    def leave_slot_out(self):
-        """A slot is no skin for a moment, and one again."""
-        obj, node = self.own_nodes()
-        if node is None:
-            return
-        material = next(m for m in bpy.data.materials if m.node_tree == node.id_data)
-        material.skinglow.is_skin = False
-        self.compare(depsgraph())
-        assert not any(getattr(n, "node_tree", None) for n in material.node_tree.nodes)
-        material.skinglow.is_skin = True
 
     def from_library(self, linked, names):
         with bpy.data.libraries.load(str(self.folder / LIBRARY), link=linked) as (_source, target):
@@ -243,11 +215,6 @@ class Walk(MeshEdits):
             assert groups <= {obj.skinglow.group}, (obj.name, groups, obj.skinglow.group)
         rows = [(o.skinglow.group, o.skinglow.row) for o in self.skins()]
         assert len(set(rows)) == len(rows), rows
-
-
-def skin_nodes(obj):
-    materials = {slot.material for slot in obj.material_slots} - {None}
-    return [n for m in materials for n in m.node_tree.nodes if getattr(n, "node_tree", None)]
 
 
 @cache

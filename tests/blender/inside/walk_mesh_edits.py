@@ -11,6 +11,11 @@ from inside.walk_edits import SceneEdits
 MODIFIERS = ("SUBSURF", "SOLIDIFY", "MIRROR", "TRIANGULATE")
 
 
+def skin_nodes(obj):
+    materials = {slot.material for slot in obj.material_slots} - {None}
+    return [n for m in materials for n in m.node_tree.nodes if getattr(n, "node_tree", None)]
+
+
 class MeshEdits(SceneEdits):
     """Edits of the meshes and materials of skins that belong to this file."""
 
@@ -86,3 +91,31 @@ class MeshEdits(SceneEdits):
             # What other steps of the undo stack point to is gone.
             self.undoable = 0
             self.push_undo()
+
+    def own_nodes(self):
+        """A skin of this file, and its node in a material of this file; None twice if there is none."""
+        pairs = [(o, n) for o in self.own_skins() for n in skin_nodes(o) if not n.id_data.library]
+        return self.pick([(o, n) for o, n in pairs if not n.node_tree.library]) or (None, None)
+
+    def copy_group(self):
+        """The node group of one material made a single user, as the number beside its name does."""
+        _obj, node = self.own_nodes()
+        if node is not None and len(bpy.data.node_groups) < 20:
+            node.node_tree = node.node_tree.copy()
+
+    def copy_material(self):
+        obj, node = self.own_nodes()
+        slots = [s for s in obj.material_slots if s.material and s.material.node_tree == node.id_data] if obj else []
+        if slots:
+            slots[0].material = slots[0].material.copy()
+
+    def leave_slot_out(self):
+        """A slot is no skin for a moment, and one again."""
+        obj, node = self.own_nodes()
+        if node is None:
+            return
+        material = next(m for m in bpy.data.materials if m.node_tree == node.id_data)
+        material.skinglow.is_skin = False
+        self.compare(depsgraph())
+        assert not any(getattr(n, "node_tree", None) for n in material.node_tree.nodes)
+        material.skinglow.is_skin = True
