@@ -37,10 +37,12 @@ def is_skin_group(tree: bpy.types.NodeTree | None) -> bool:
 
 def image_nodes(group: bpy.types.NodeTree) -> list[bpy.types.Node]:
     """The nodes through which a group reads its image; empty if they were deleted."""
-    header = [group.nodes[HEADER_NODE]] if HEADER_NODE in group.nodes else []
-    texel = group.nodes.get(TEXEL_NODE)
-    if texel is not None:
-        node = texel.node_tree.nodes.get(SURFACE_NODE) if texel.node_tree is not None else None
+    # By the properties first: a look for a node by name goes through all of them.
+    header = [group.nodes[HEADER_NODE]] if FROZEN_PROPERTY in group and HEADER_NODE in group.nodes else []
+    if LAYOUT_PROPERTY in group:
+        texel = group.nodes.get(TEXEL_NODE)
+        tree = texel.node_tree if texel is not None else None
+        node = tree.nodes.get(SURFACE_NODE) if tree is not None else None
         return [node, *header] if node is not None else []
     nodes = [group.nodes.get(name) for name in NODE_NAMES]
     return nodes + header if None not in nodes else []
