@@ -78,28 +78,36 @@ std::vector<glm::dvec3> to_irradiance(py::handle value) {
     return result;
 }
 
-py::array exitance_of_array(const Shape& self, py::handle irradiance) {
+py::array exitance_of_array(const Shape& self, py::handle irradiance, const py::object& progress) {
     const std::vector<glm::dvec3> given = to_irradiance(irradiance);
-    return numpy::from_vec3s(numpy::without_gil([&] { return self.exitance(given); }));
+    return numpy::from_vec3s(numpy::without_gil([&] { return self.exitance(given, ask_python(progress)); }));
 }
 
 LitShape lit_by_arrays(const Shape& self, py::handle lights, const std::optional<Environment>& environment,
                        const std::optional<Occluders>& occluders, std::vector<std::size_t> excluded,
-                       int reentries, int shadow_samples) {
+                       int reentries, int shadow_samples, const py::object& progress) {
     const PreparedRig rig = numpy::to_rig(lights);
     const ShapeLightOptions options{environment ? &*environment : nullptr, occluders ? &*occluders : nullptr,
                                     std::move(excluded), reentries, shadow_samples};
-    return numpy::without_gil([&] { return self.light(rig, options); });
+    return numpy::without_gil([&] { return self.light(rig, options, ask_python(progress)); });
 }
 
 py::array per_light_array(const LitShape& self) {
-    py::array rows = numpy::from_vec3s(numpy::without_gil([&] { return self.per_light(); }));
+    const py::object no_function = py::none();
+    py::array rows =
+        numpy::from_vec3s(numpy::without_gil([&] { return self.per_light(ask_python(no_function)); }));
     return rows.attr("reshape")(self.lights(), self.exitance().size(), 3);
 }
 
-py::array recolored(const LitShape& self, py::handle colors) {
+py::array recolored(const LitShape& self, py::handle colors, const py::object& progress) {
     const std::vector<glm::dvec3> given = numpy::to_vec3s(colors, "colors");
-    return numpy::from_vec3s(numpy::without_gil([&] { return self.recolor(given); }));
+    return numpy::from_vec3s(numpy::without_gil([&] { return self.recolor(given, ask_python(progress)); }));
+}
+
+template <typename Of>
+Of in_tissue(const Of& self, py::handle tissue) {
+    const Tissue skin = to_tissue(tissue);
+    return numpy::without_gil([&] { return self.with_tissue(skin); });
 }
 
 py::array copy_of(const std::vector<glm::dvec3>& rows) {
@@ -125,7 +133,8 @@ void bind_shape(py::module_& m) {
         .def_property_readonly("irradiance", [](const LitShape& self) { return copy_of(self.irradiance()); })
         .def_property_readonly("left_out", &LitShape::left_out)
         .def("per_light", &per_light_array, "See skinglow.LitShape.per_light.")
-        .def("recolor", &recolored, "colors"_a, "See skinglow.LitShape.recolor.");
+        .def("recolor", &recolored, "colors"_a, "progress"_a, "See skinglow.LitShape.recolor.")
+        .def("with_tissue", &in_tissue<LitShape>, "tissue"_a, "See skinglow.LitShape.with_tissue.");
     py::class_<Shape>(m, "Shape", "See skinglow.Shape.")
         .def(py::init(&make_shape), "vertices"_a, "triangles"_a, "tissue"_a, "absorption"_a,
              "reduced_scattering"_a, "refractive_index"_a, "surface"_a, "unit_mm"_a, "cell_mm"_a,
@@ -143,9 +152,10 @@ void bind_shape(py::module_& m) {
                  for (const ShapePart& part : self.parts()) list.append(part_of(part));
                  return list;
              })
-        .def("exitance", &exitance_of_array, "irradiance"_a, "See skinglow.Shape.exitance.")
+        .def("exitance", &exitance_of_array, "irradiance"_a, "progress"_a, "See skinglow.Shape.exitance.")
         .def("light", &lit_by_arrays, "lights"_a, "environment"_a, "occluders"_a, "excluded"_a, "reentries"_a,
-             "shadow_samples"_a, "See skinglow.Shape.light.");
+             "shadow_samples"_a, "progress"_a, "See skinglow.Shape.light.")
+        .def("with_tissue", &in_tissue<Shape>, "tissue"_a, "See skinglow.Shape.with_tissue.");
 }
 
 }  // namespace skinglow

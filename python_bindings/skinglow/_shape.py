@@ -45,7 +45,8 @@ class Shape:
                         normal. None: at the vertices
     threads             0: one for each processor. The result does not depend on it
     progress            called on this thread with the fraction done, ascending to 1; returns whether to go on. If not,
-                        RuntimeError (skinglow._rays.ShapeCancelled) is raised
+                        RuntimeError (skinglow._rays.ShapeCancelled) is raised; what it raises is raised. All long calls
+                        have it; stopped ones can be made again and go on with the parts that are ready
 
     Thin parts are found now; each is made ready, in seconds, when light first falls on it. Flesh is where the
     triangles wind about a point more than half a time: open, doubled, overlapping and partly flipped meshes have an
@@ -121,14 +122,16 @@ class Shape:
             "lost_area_fraction": max((part.lost_area_fraction for part in parts), default=0.0),
         }
 
-    def exitance(self, irradiance: ArrayLike) -> NDArray[np.float64]:
+    def exitance(
+        self, irradiance: ArrayLike, *, progress: Callable[[float], bool] | None = None
+    ) -> NDArray[np.float64]:
         """What leaves the flesh, (n, 3), W/m^2, 0 or more; without light that enters skin again.
 
         At a vertex it is the mean about it, weighted by the hat function of its triangles.
 
         irradiance  (v, 3), or (v,) for all channels alike: at each vertex, W/m^2, finite; linear on triangles, diffuse
         """
-        return self._shape.exitance(irradiance)
+        return self._shape.exitance(irradiance, progress)
 
     def light(
         self,
@@ -139,6 +142,7 @@ class Shape:
         *,
         excluded: Sequence[int] = (),
         shadow_samples: int = 16,
+        progress: Callable[[float], bool] | None = None,
     ) -> LitShape:
         """The body under lights, whose shadows it casts itself, and other objects.
 
@@ -151,7 +155,21 @@ class Shape:
         shadow_samples  rays to a light that has an extent, 1 to 4096
         """
         scene = None if occluders is None else occluders._scene
-        return LitShape(self._shape.light(lights, environment, scene, excluded, reentries, shadow_samples))
+        return LitShape(self._shape.light(lights, environment, scene, excluded, reentries, shadow_samples, progress))
+
+    def with_tissue(self, tissue: Tissue) -> Shape:
+        """The same body of another skin, at once and with what is prepared, for sliders.
+
+        Light goes on being solved for the flesh of the tissue that the shape was made of, and the other one's spectrum
+        is put together from that. How far off it is: docs/shape.md. A shape of coefficients has no tissue: ValueError.
+        """
+        return self._like(self._shape.with_tissue(tissue))
+
+    @classmethod
+    def _like(cls, shape: Any) -> Shape:  # of the compiled module
+        result = cls.__new__(cls)
+        result._shape = shape
+        return result
 
 
 class LitShape:
@@ -183,12 +201,16 @@ class LitShape:
         """(k, n, 3): exitance by light alone. Solved when it is first asked for, each light by itself."""
         return self._lit.per_light()
 
-    def recolor(self, colors: ArrayLike) -> NDArray[np.float64]:
+    def recolor(self, colors: ArrayLike, *, progress: Callable[[float], bool] | None = None) -> NDArray[np.float64]:
         """(n, 3): the exitance with other colors of the lights; sums alone once this or per_light was asked for.
 
         colors  (k, 3), linear Rec.709, finite, 0 or more, instead of the lights' own
         """
-        return self._lit.recolor(colors)
+        return self._lit.recolor(colors, progress)
+
+    def with_tissue(self, tissue: Tissue) -> LitShape:
+        """The same light in another skin, in milliseconds and without solving: see Shape.with_tissue."""
+        return LitShape(self._lit.with_tissue(tissue))
 
     @property
     def report(self) -> dict[str, Any]:

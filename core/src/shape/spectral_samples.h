@@ -13,11 +13,14 @@ namespace skinglow::detail {
 
 constexpr std::size_t max_spectral_nodes = 8;
 
+/// Where a wavelength stands: before all nodes, between the two of its segment, or beyond all.
+enum class NodeSide { before, between, beyond };
+
 /// One wavelength among the nodes.
 struct SpectralSample {
     std::array<double, max_spectral_nodes> weight{};  ///< of the nodes' logarithms; their sum is 1
     std::size_t segment = 0;                          ///< as in SpectralSamples::Run
-    bool between = true;
+    NodeSide side = NodeSide::between;
     glm::dmat3 matrix{0.0};  ///< what light of transmittance 1 contributes, times the epidermis' factor
 };
 
@@ -35,6 +38,7 @@ class NodeInterpolation {
 };
 
 /// A polynomial may oscillate between nodes that differ by orders of magnitude: it stays between its neighbors.
+/// Beyond the last node, which absorbs most, nothing is brighter than there: noise of dim nodes would grow.
 double value_of(const SpectralSample& sample, std::span<const double> at_nodes);
 
 /// How wavelengths come about from the nodes. Those that stand alike to the nodes follow each other, a run,
@@ -44,8 +48,8 @@ struct SpectralSamples {
 
     struct Run {
         std::size_t begin, end;
-        std::size_t segment;  ///< the nodes `segment` and `segment` + 1 stand around them ...
-        bool between;         ///< ... unless this is false: they are beyond the first or the last
+        std::size_t segment;  ///< the nodes `segment` and `segment` + 1 are next to them
+        NodeSide side;
     };
     std::vector<Run> runs;
     std::size_t size = 0;
