@@ -16,6 +16,9 @@ from skinglow._rays_loader import load_rays
 __all__ = ["LitShape", "Shape", "ShapePart"]
 
 
+DEFAULT_CELL_MM = 0.8
+
+
 class ShapePart(NamedTuple):
     """A thin part of a body, which is solved by itself."""
 
@@ -39,7 +42,10 @@ class Shape:
     refractive_index    of that medium, 1 to 3; outside is air. A tissue has its own
     surface             "rough" (light that crosses it forgets its direction) or "smooth" (Fresnel's reflectance)
     unit_mm             length of one unit of the vertices, mm, above 0
-    cell_mm             edge of the cells that light is solved on: 0.8 for work, 0.5 is final quality
+    cell_mm             edge of the cells that light is solved on: 0.8 for work, 0.5 is final quality. None: 0.8, or
+                        what `tolerance` asks for
+    tolerance           without cell_mm: the largest cells, of 0.3 to 1.6 mm, with which the estimated error of thin
+                        flesh that is lit from behind (RMS over mean, all channels) is at most this; e.g. 0.15
     max_thickness_mm    flesh that is thicker has the exitance of a half-space
     points, normals     (n, 3): where exitance is asked, each at the nearest point of the triangles that face along its
                         normal. None: at the vertices
@@ -64,13 +70,18 @@ class Shape:
         refractive_index: float = 1.4,
         surface: str = "rough",
         unit_mm: float = 1.0,
-        cell_mm: float = 0.8,
+        cell_mm: float | None = None,
+        tolerance: float | None = None,
         max_thickness_mm: float = 25.0,
         points: ArrayLike | None = None,
         normals: ArrayLike | None = None,
         threads: int = 0,
         progress: Callable[[float], bool] | None = None,
     ) -> None:
+        if cell_mm is not None and tolerance is not None:
+            raise ValueError(f"tolerance is {tolerance}; allowed: None, as cell_mm is given")
+        if tolerance is not None and not tolerance > 0.0:
+            raise ValueError(f"tolerance is {tolerance}; allowed: a number above 0")
         self._shape = load_rays().Shape(
             vertices,
             triangles,
@@ -80,12 +91,13 @@ class Shape:
             refractive_index,
             surface,
             unit_mm,
-            cell_mm,
+            DEFAULT_CELL_MM if cell_mm is None else cell_mm,
             max_thickness_mm,
             points,
             normals,
             threads,
             progress,
+            tolerance or 0.0,
         )
 
     @property
@@ -107,12 +119,14 @@ class Shape:
     def report(self) -> dict[str, Any]:
         """What was chosen and left out.
 
+        cell_mm                         edge of the cells, as given or chosen; parts thinner than it have smaller ones
         points, parts, points_in_parts  numbers; points in no part are taken to be thick, with a half-space's exitance
         ready_parts, cells, bytes       of the parts that light fell on
         lost_area_fraction              largest of the parts': where it is not small, the cells are too large
         """
         parts = self.parts
         return {
+            "cell_mm": self._shape.cell_mm,
             "points": len(self.points),
             "parts": len(parts),
             "points_in_parts": sum(len(part.points) for part in parts),
@@ -132,6 +146,12 @@ class Shape:
         irradiance  (v, 3), or (v,) for all channels alike: at each vertex, W/m^2, finite; linear on triangles, diffuse
         """
         return self._shape.exitance(irradiance, progress)
+
+    def exitance_error(
+        self, irradiance: ArrayLike, *, progress: Callable[[float], bool] | None = None
+    ) -> NDArray[np.float64]:
+        """How far off `exitance` of that irradiance is taken to be, (n, 3), W/m^2: see LitShape.error."""
+        return self._shape.exitance_error(irradiance, progress)
 
     def light(
         self,
@@ -192,6 +212,15 @@ class LitShape:
         return self._lit.transmitted
 
     @cached_property
+    def error(self) -> NDArray[np.float64]:
+        """(n, 3): how far off the exitance is taken to be, W/m^2, as one standard deviation at each point.
+
+        From how far light has fallen, the medium and the cells; above the errors measured in docs/shape.md, up to three
+        times. Surface and medium are taken as they are given.
+        """
+        return self._lit.error()
+
+    @cached_property
     def irradiance(self) -> NDArray[np.float64]:
         """(v, 3): at the vertices, of lights and world, shadows included; 0 where it does not matter."""
         return self._lit.irradiance
@@ -214,5 +243,12 @@ class LitShape:
 
     @property
     def report(self) -> dict[str, Any]:
-        """left_out: indices of lights that give nothing, or all together less than a thousandth of the light."""
-        return {"left_out": self._lit.left_out}
+        """What was left out, and how far off the light is taken to be.
+
+        left_out  indices of lights that give nothing, or all together less than a thousandth of the light
+        error     (3,): RMS of `error` over the mean of the exitance, of all points
+        """
+        mean = self.exitance.mean(axis=0)
+        rms = np.sqrt((self.error**2).mean(axis=0))
+        error = np.divide(rms, mean, out=np.zeros(3), where=mean > 0.0)
+        return {"left_out": self._lit.left_out, "error": error}

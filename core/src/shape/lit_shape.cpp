@@ -36,6 +36,9 @@ const std::vector<glm::dvec3>& LitShape::exitance() const {
 const std::vector<glm::dvec3>& LitShape::transmitted() const {
     return data_->transmitted;
 }
+std::vector<glm::dvec3> LitShape::error() const {
+    return data_->shape->at_points(data_->error());
+}
 const std::vector<glm::dvec3>& LitShape::irradiance() const {
     return data_->solved->irradiance;
 }
@@ -72,7 +75,7 @@ std::vector<glm::dvec3> LitShape::recolor(std::span<const glm::dvec3> colors,
     for (std::size_t k = 0; k < colors.size(); ++k) require_not_negative(entry_name("colors", k), colors[k]);
     // What is at hand is faster than starting a job.
     if (data_->matrices.ready() == nullptr) run_or_cancel(progress, [&] { data_->by_light(); });
-    return data_->at_points(data_->sum(colors).exitance);
+    return data_->shape->at_points(data_->sum(colors).exitance);
 }
 
 LitShape LitShape::with_tissue(const Tissue& tissue) const {

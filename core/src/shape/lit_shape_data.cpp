@@ -6,6 +6,7 @@
 
 #include "numerics/job.h"
 #include "rig/rig_data.h"
+#include "shape/shape_error.h"
 
 namespace skinglow::detail {
 namespace {
@@ -130,8 +131,8 @@ LitShapeData::LitShapeData(std::shared_ptr<const SolvedLight> light, std::shared
     }
     for (std::size_t s = 0; s < found.exitance.size(); ++s)
         found.reflected[s] = glm::max(found.exitance[s] - found.reflected[s], glm::dvec3(0.0));
-    exitance = at_points(found.exitance);
-    transmitted = at_points(found.reflected);
+    exitance = shape->at_points(found.exitance);
+    transmitted = shape->at_points(found.reflected);
 }
 
 const LightMatrices& LitShapeData::by_light() const {
@@ -167,11 +168,17 @@ ShapeData::Colors LitShapeData::sum(std::span<const glm::dvec3> colors) const {
             total(&ShapeData::Matrices::reflected, world.reflected)};
 }
 
-std::vector<glm::dvec3> LitShapeData::at_points(const std::vector<glm::dvec3>& of_sites) const {
-    std::vector<glm::dvec3> result;
-    result.reserve(shape->points.size());
-    for (const std::uint32_t s : shape->solver->sites().site_of()) result.push_back(of_sites[s]);
-    return result;
+std::vector<glm::dvec3> LitShapeData::error() const {
+    std::vector<ColoredLight> lights;
+    if (solved->together.empty()) {
+        const NodeLights& nodes = solved->each();
+        for (std::size_t k = 0; k < nodes.lights.size(); ++k)
+            lights.push_back({&nodes.lights[k], solved->rig.data().prepared[k].color});
+        add_colored(nodes.world, lights);
+    } else {
+        add_colored(solved->together, lights);
+    }
+    return estimated_error(*shape, lights, solved->irradiance);
 }
 
 }  // namespace skinglow::detail

@@ -53,7 +53,8 @@ struct LitShapeData {
 
     /// Sum over the lights at the sites, of lights of these colors, and the world.
     ShapeData::Colors sum(std::span<const glm::dvec3> colors) const;
-    std::vector<glm::dvec3> at_points(const std::vector<glm::dvec3>& of_sites) const;
+    /// Estimated, one per site.
+    std::vector<glm::dvec3> error() const;
 };
 
 }  // namespace skinglow::detail

@@ -5,13 +5,16 @@
 #include <string>
 
 #include "numerics/argument_check.h"
-#include "shape/shape_data.h"
+#include "shape/shape_error.h"
 
 namespace skinglow {
 namespace {
 
 constexpr int spectral_node_count = 4;
 constexpr double min_cell_mm = 0.02;
+/// Chosen from a tolerance. Smaller ones are only slower: what is left is SP3's.
+constexpr double finest_chosen_mm = 0.3;
+constexpr double coarsest_chosen_mm = 1.6;
 
 void validate(const MeshView& mesh, const ShapeOptions& options, const ShapePoints& points) {
     if (mesh.triangles().empty()) refuse_argument("triangles", "empty", "at least one triangle");
@@ -28,6 +31,23 @@ void validate(const MeshView& mesh, const ShapeOptions& options, const ShapePoin
         require_finite(entry_name("points", i), points.points[i]);
     for (std::size_t i = 0; i < points.normals.size(); ++i)
         require_finite(entry_name("normals", i), points.normals[i]);
+}
+
+void require_irradiance(std::span<const glm::dvec3> irradiance, std::size_t vertices) {
+    if (irradiance.size() != vertices) {
+        refuse_argument("irradiance", std::to_string(irradiance.size()) + " entries",
+                        "one for each of " + std::to_string(vertices) + " vertices");
+    }
+    for (std::size_t i = 0; i < irradiance.size(); ++i)
+        require_finite(entry_name("irradiance", i), irradiance[i]);
+}
+
+/// With the cell that a tolerance asks for.
+ShapeOptions chosen(const ShapeOptions& given, const LaneMedium& medium) {
+    ShapeOptions result = given;
+    if (given.tolerance != 0)
+        result.cell_mm = cell_for(medium, given.tolerance, finest_chosen_mm, coarsest_chosen_mm);
+    return result;
 }
 
 double coefficient(const char* name, int channel, double value) {
@@ -108,8 +128,8 @@ Shape::Shape(const MeshView& mesh, const ShapeMedium& medium, const ShapeOptions
              const ShapePoints& points, const ShapeProgress& progress) {
     validate(mesh, options, points);
     run_or_cancel(progress, [&] {
-        data_ = std::make_shared<const ShapeData>(mesh, lanes_of(medium, options.surface), std::nullopt,
-                                                  options, points);
+        const LaneMedium lanes = lanes_of(medium, options.surface);
+        data_ = std::make_shared<const ShapeData>(mesh, lanes, std::nullopt, chosen(options, lanes), points);
     });
 }
 
@@ -119,7 +139,8 @@ Shape::Shape(const MeshView& mesh, const Tissue& tissue, const ShapeOptions& opt
     run_or_cancel(progress, [&] {
         SpectralNodes spectrum = spectral_nodes(tissue, spectral_node_count);
         const LaneMedium medium = lanes_of(spectrum, options.surface);
-        data_ = std::make_shared<const ShapeData>(mesh, medium, std::move(spectrum), options, points);
+        data_ = std::make_shared<const ShapeData>(mesh, medium, std::move(spectrum), chosen(options, medium),
+                                                  points);
     });
 }
 
@@ -173,18 +194,23 @@ std::vector<ShapePart> Shape::parts() const {
 
 std::vector<glm::dvec3> Shape::exitance(std::span<const glm::dvec3> irradiance,
                                         const ShapeProgress& progress) const {
-    if (irradiance.size() != vertices()) {
-        refuse_argument("irradiance", std::to_string(irradiance.size()) + " entries",
-                        "one for each of " + std::to_string(vertices()) + " vertices");
-    }
-    for (std::size_t i = 0; i < irradiance.size(); ++i)
-        require_finite(entry_name("irradiance", i), irradiance[i]);
+    require_irradiance(irradiance, vertices());
     std::vector<glm::dvec3> of_sites;
     run_or_cancel(progress, [&] { of_sites = data_->colors(data_->solve(irradiance, 0)).exitance; });
-    std::vector<glm::dvec3> result;
-    result.reserve(points().size());
-    for (const std::uint32_t s : data_->solver->sites().site_of()) result.push_back(of_sites[s]);
-    return result;
+    return data_->at_points(of_sites);
+}
+
+std::vector<glm::dvec3> Shape::exitance_error(std::span<const glm::dvec3> irradiance,
+                                              const ShapeProgress& progress) const {
+    require_irradiance(irradiance, vertices());
+    std::vector<glm::dvec3> of_sites;
+    run_or_cancel(progress, [&] {
+        const std::vector<SiteLight> solved = data_->solve(irradiance, 0);
+        std::vector<ColoredLight> lights;
+        add_colored(solved, lights);
+        of_sites = estimated_error(*data_, lights, irradiance);
+    });
+    return data_->at_points(of_sites);
 }
 
 }  // namespace skinglow

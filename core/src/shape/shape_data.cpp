@@ -67,9 +67,7 @@ void ShapeData::set_thick() {
     }
 }
 
-ShapeData::Pair ShapeData::combine(const SiteLight& solved, std::size_t site) const {
-    const Lanes& all = solved.exitance[site];
-    const Lanes& of_half_space = solved.reflected[site];
+ShapeData::Pair ShapeData::combine(const Lanes& all, const Lanes& of_half_space) const {
     if (!spectrum) return {combine(all), combine(of_half_space)};
     // The first node is the least absorbed: what it has enters again where that matters.
     const double irradiance = static_cast<double>(of_half_space[0]) / solver->medium()[0].half_space;
@@ -94,6 +92,13 @@ ShapeData::Pair ShapeData::combine(const SiteLight& solved, std::size_t site) co
         if (!(through[last] > 0 && through[last] < largest)) through[last] = largest;
     }
     result.exitance += combine(through);
+    return result;
+}
+
+std::vector<glm::dvec3> ShapeData::at_points(const std::vector<glm::dvec3>& of_sites) const {
+    std::vector<glm::dvec3> result;
+    result.reserve(points.size());
+    for (const std::uint32_t s : solver->sites().site_of()) result.push_back(of_sites[s]);
     return result;
 }
 
@@ -131,7 +136,7 @@ ShapeData::Colors ShapeData::colors(std::span<const SiteLight> solved) const {
                   std::vector<glm::dvec3>(sites, glm::dvec3(0.0))};
     // Of three channels each has its column; gray light has all of them.
     const auto add = [&](std::size_t s, std::size_t of, const glm::dvec3& color) {
-        const Pair pair = combine(solved[of], s);
+        const Pair pair = combine(solved[of].exitance[s], solved[of].reflected[s]);
         result.exitance[s] += pair.exitance * color;
         result.reflected[s] += pair.reflected * color;
     };
@@ -158,7 +163,7 @@ ShapeData::Matrices ShapeData::matrices(const SiteLight& solved) const {
                     std::vector<glm::mat3>(solved.exitance.size())};
     const auto work = [&](std::size_t begin, std::size_t end) {
         for (std::size_t s = begin; s < end; ++s) {
-            const Pair pair = combine(solved, s);
+            const Pair pair = combine(solved.exitance[s], solved.reflected[s]);
             result.exitance[s] = glm::mat3(pair.exitance);
             result.reflected[s] = glm::mat3(pair.reflected);
         }

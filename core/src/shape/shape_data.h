@@ -53,7 +53,11 @@ struct ShapeData {
         glm::dmat3 exitance;
         glm::dmat3 reflected;
     };
-    Pair combine(const SiteLight& solved, std::size_t site) const;
+    /// @param exitance  at the nodes
+    /// @param reflected what a half-space has of it
+    Pair combine(const Lanes& exitance, const Lanes& reflected) const;
+
+    std::vector<glm::dvec3> at_points(const std::vector<glm::dvec3>& of_sites) const;
 
     ShapeOptions options;
     std::vector<glm::dvec3> vertices;  ///< as given

@@ -31,8 +31,7 @@ SpectralSample NodeInterpolation::at(double x) const {
 double value_of(const SpectralSample& sample, std::span<const double> at_nodes) {
     double value = 0.0;
     for (std::size_t i = 0; i < at_nodes.size(); ++i) value += sample.weight[i] * at_nodes[i];
-    if (sample.side == NodeSide::before) return value;
-    if (sample.side == NodeSide::beyond) return std::min(value, at_nodes[sample.segment + 1]);
+    if (sample.side != NodeSide::between) return value;
     const auto [low, high] = std::minmax(at_nodes[sample.segment], at_nodes[sample.segment + 1]);
     return std::clamp(value, low, high);
 }

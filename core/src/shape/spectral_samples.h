@@ -38,7 +38,6 @@ class NodeInterpolation {
 };
 
 /// A polynomial may oscillate between nodes that differ by orders of magnitude: it stays between its neighbors.
-/// Beyond the last node, which absorbs most, nothing is brighter than there: noise of dim nodes would grow.
 double value_of(const SpectralSample& sample, std::span<const double> at_nodes);
 
 /// How wavelengths come about from the nodes. Those that stand alike to the nodes follow each other, a run,
@@ -60,9 +59,10 @@ struct SpectralSamples {
 
 SpectralSamples in_runs(std::span<const SpectralSample> samples, std::size_t nodes);
 
-/// The sum of exp(logarithm at a sample) times its row, for each of 9 entries.
+/// The sum of exp(logarithm at a sample) times its row, for each of 9 entries. Beyond the last node, which absorbs
+/// most, nothing is brighter than there: noise of dim nodes would grow.
 /// @param at_nodes  logarithms at the nodes, at most 0
-/// @param limit     of a sample's logarithm
+/// @param limit     of a sample's logarithm before the first node
 std::array<double, 9> sum_samples(const SpectralSamples& samples, std::span<const float> at_nodes,
                                   float limit);
 
