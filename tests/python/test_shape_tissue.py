@@ -130,5 +130,5 @@ def test_lit_skin_has_the_color_of_thick_skin(blood):
     lit = sg.Shape(vertices, triangles, tissue).light(front, reentries=0)
     thick = sg.Shape([[0, 0, 0], [9, 0, 0], [0, 9, 0.0]], [[0, 1, 2]], tissue).exitance(np.ones(3))[0]
     inner = (np.abs(vertices[:, :2]) < 6.0).all(axis=1) & (vertices[:, 2] == 6.0)
-    np.testing.assert_allclose(lit.exitance[inner].mean(axis=0), thick, rtol=0.12)
+    np.testing.assert_allclose(lit.exitance[inner].mean(axis=0), thick, rtol=0.2)
     assert (lit.transmitted[inner].mean(axis=0) < 0.1 * thick).all()
