@@ -42,9 +42,10 @@ Tissue to_tissue(py::handle value) {
 Shape make_shape(py::handle vertices, py::handle triangles, py::handle tissue, py::handle absorption,
                  py::handle reduced_scattering, double refractive_index, const std::string& surface,
                  double unit_mm, double cell_mm, double max_thickness_mm, py::handle points,
-                 py::handle normals, int threads, const py::object& progress) {
+                 py::handle normals, int threads, const py::object& progress, double tolerance) {
     const TriangleMesh mesh = numpy::to_mesh(vertices, triangles);
-    const ShapeOptions options{unit_mm, cell_mm, max_thickness_mm, surface_finish(surface), threads};
+    const ShapeOptions options{unit_mm, cell_mm,  max_thickness_mm, surface_finish(surface),
+                               threads, tolerance};
     std::vector<glm::dvec3> positions;
     std::vector<glm::dvec3> facing;
     if (!points.is_none()) positions = numpy::to_vec3s(points, "points");
@@ -78,28 +79,42 @@ std::vector<glm::dvec3> to_irradiance(py::handle value) {
     return result;
 }
 
-py::array exitance_of_array(const Shape& self, py::handle irradiance) {
+py::array exitance_of_array(const Shape& self, py::handle irradiance, const py::object& progress) {
     const std::vector<glm::dvec3> given = to_irradiance(irradiance);
-    return numpy::from_vec3s(numpy::without_gil([&] { return self.exitance(given); }));
+    return numpy::from_vec3s(numpy::without_gil([&] { return self.exitance(given, ask_python(progress)); }));
+}
+
+py::array exitance_error_array(const Shape& self, py::handle irradiance, const py::object& progress) {
+    const std::vector<glm::dvec3> given = to_irradiance(irradiance);
+    return numpy::from_vec3s(
+        numpy::without_gil([&] { return self.exitance_error(given, ask_python(progress)); }));
 }
 
 LitShape lit_by_arrays(const Shape& self, py::handle lights, const std::optional<Environment>& environment,
                        const std::optional<Occluders>& occluders, std::vector<std::size_t> excluded,
-                       int reentries, int shadow_samples) {
+                       int reentries, int shadow_samples, const py::object& progress) {
     const PreparedRig rig = numpy::to_rig(lights);
     const ShapeLightOptions options{environment ? &*environment : nullptr, occluders ? &*occluders : nullptr,
                                     std::move(excluded), reentries, shadow_samples};
-    return numpy::without_gil([&] { return self.light(rig, options); });
+    return numpy::without_gil([&] { return self.light(rig, options, ask_python(progress)); });
 }
 
 py::array per_light_array(const LitShape& self) {
-    py::array rows = numpy::from_vec3s(numpy::without_gil([&] { return self.per_light(); }));
+    const py::object no_function = py::none();
+    py::array rows =
+        numpy::from_vec3s(numpy::without_gil([&] { return self.per_light(ask_python(no_function)); }));
     return rows.attr("reshape")(self.lights(), self.exitance().size(), 3);
 }
 
-py::array recolored(const LitShape& self, py::handle colors) {
+py::array recolored(const LitShape& self, py::handle colors, const py::object& progress) {
     const std::vector<glm::dvec3> given = numpy::to_vec3s(colors, "colors");
-    return numpy::from_vec3s(numpy::without_gil([&] { return self.recolor(given); }));
+    return numpy::from_vec3s(numpy::without_gil([&] { return self.recolor(given, ask_python(progress)); }));
+}
+
+template <typename Of>
+Of in_tissue(const Of& self, py::handle tissue) {
+    const Tissue skin = to_tissue(tissue);
+    return numpy::without_gil([&] { return self.with_tissue(skin); });
 }
 
 py::array copy_of(const std::vector<glm::dvec3>& rows) {
@@ -123,19 +138,25 @@ void bind_shape(py::module_& m) {
         .def_property_readonly("transmitted",
                                [](const LitShape& self) { return copy_of(self.transmitted()); })
         .def_property_readonly("irradiance", [](const LitShape& self) { return copy_of(self.irradiance()); })
+        .def("error",
+             [](const LitShape& self) {
+                 return numpy::from_vec3s(numpy::without_gil([&] { return self.error(); }));
+             })
         .def_property_readonly("left_out", &LitShape::left_out)
         .def("per_light", &per_light_array, "See skinglow.LitShape.per_light.")
-        .def("recolor", &recolored, "colors"_a, "See skinglow.LitShape.recolor.");
+        .def("recolor", &recolored, "colors"_a, "progress"_a, "See skinglow.LitShape.recolor.")
+        .def("with_tissue", &in_tissue<LitShape>, "tissue"_a, "See skinglow.LitShape.with_tissue.");
     py::class_<Shape>(m, "Shape", "See skinglow.Shape.")
         .def(py::init(&make_shape), "vertices"_a, "triangles"_a, "tissue"_a, "absorption"_a,
              "reduced_scattering"_a, "refractive_index"_a, "surface"_a, "unit_mm"_a, "cell_mm"_a,
-             "max_thickness_mm"_a, "points"_a, "normals"_a, "threads"_a, "progress"_a)
+             "max_thickness_mm"_a, "points"_a, "normals"_a, "threads"_a, "progress"_a, "tolerance"_a)
         .def_property_readonly("points",
                                [](const Shape& self) {
                                    std::vector<glm::dvec3> mm = self.points();
                                    for (glm::dvec3& p : mm) p *= self.options().unit_mm;
                                    return numpy::from_vec3s(std::move(mm));
                                })
+        .def_property_readonly("cell_mm", [](const Shape& self) { return self.options().cell_mm; })
         .def_property_readonly("bytes", &Shape::bytes)
         .def("parts",
              [](const Shape& self) {
@@ -143,9 +164,12 @@ void bind_shape(py::module_& m) {
                  for (const ShapePart& part : self.parts()) list.append(part_of(part));
                  return list;
              })
-        .def("exitance", &exitance_of_array, "irradiance"_a, "See skinglow.Shape.exitance.")
+        .def("exitance", &exitance_of_array, "irradiance"_a, "progress"_a, "See skinglow.Shape.exitance.")
+        .def("exitance_error", &exitance_error_array, "irradiance"_a, "progress"_a,
+             "See skinglow.Shape.exitance_error.")
         .def("light", &lit_by_arrays, "lights"_a, "environment"_a, "occluders"_a, "excluded"_a, "reentries"_a,
-             "shadow_samples"_a, "See skinglow.Shape.light.");
+             "shadow_samples"_a, "progress"_a, "See skinglow.Shape.light.")
+        .def("with_tissue", &in_tissue<Shape>, "tissue"_a, "See skinglow.Shape.with_tissue.");
 }
 
 }  // namespace skinglow

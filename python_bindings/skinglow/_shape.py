@@ -16,6 +16,9 @@ from skinglow._rays_loader import load_rays
 __all__ = ["LitShape", "Shape", "ShapePart"]
 
 
+DEFAULT_CELL_MM = 0.8
+
+
 class ShapePart(NamedTuple):
     """A thin part of a body, which is solved by itself."""
 
@@ -39,13 +42,17 @@ class Shape:
     refractive_index    of that medium, 1 to 3; outside is air. A tissue has its own
     surface             "rough" (light that crosses it forgets its direction) or "smooth" (Fresnel's reflectance)
     unit_mm             length of one unit of the vertices, mm, above 0
-    cell_mm             edge of the cells that light is solved on: 0.8 for work, 0.5 is final quality
+    cell_mm             edge of the cells that light is solved on: 0.8 for work, 0.5 is final quality. None: 0.8, or
+                        what `tolerance` asks for
+    tolerance           without cell_mm: the largest cells, of 0.3 to 1.6 mm, with which the estimated error of thin
+                        flesh that is lit from behind (RMS over mean, all channels) is at most this; e.g. 0.15
     max_thickness_mm    flesh that is thicker has the exitance of a half-space
     points, normals     (n, 3): where exitance is asked, each at the nearest point of the triangles that face along its
                         normal. None: at the vertices
     threads             0: one for each processor. The result does not depend on it
     progress            called on this thread with the fraction done, ascending to 1; returns whether to go on. If not,
-                        RuntimeError (skinglow._rays.ShapeCancelled) is raised
+                        RuntimeError (skinglow._rays.ShapeCancelled) is raised; what it raises is raised. All long calls
+                        have it; stopped ones can be made again and go on with the parts that are ready
 
     Thin parts are found now; each is made ready, in seconds, when light first falls on it. Flesh is where the
     triangles wind about a point more than half a time: open, doubled, overlapping and partly flipped meshes have an
@@ -63,13 +70,18 @@ class Shape:
         refractive_index: float = 1.4,
         surface: str = "rough",
         unit_mm: float = 1.0,
-        cell_mm: float = 0.8,
+        cell_mm: float | None = None,
+        tolerance: float | None = None,
         max_thickness_mm: float = 25.0,
         points: ArrayLike | None = None,
         normals: ArrayLike | None = None,
         threads: int = 0,
         progress: Callable[[float], bool] | None = None,
     ) -> None:
+        if cell_mm is not None and tolerance is not None:
+            raise ValueError(f"tolerance is {tolerance}; allowed: None, as cell_mm is given")
+        if tolerance is not None and not tolerance > 0.0:
+            raise ValueError(f"tolerance is {tolerance}; allowed: a number above 0")
         self._shape = load_rays().Shape(
             vertices,
             triangles,
@@ -79,12 +91,13 @@ class Shape:
             refractive_index,
             surface,
             unit_mm,
-            cell_mm,
+            DEFAULT_CELL_MM if cell_mm is None else cell_mm,
             max_thickness_mm,
             points,
             normals,
             threads,
             progress,
+            tolerance or 0.0,
         )
 
     @property
@@ -106,12 +119,14 @@ class Shape:
     def report(self) -> dict[str, Any]:
         """What was chosen and left out.
 
+        cell_mm                         edge of the cells, as given or chosen; parts thinner than it have smaller ones
         points, parts, points_in_parts  numbers; points in no part are taken to be thick, with a half-space's exitance
         ready_parts, cells, bytes       of the parts that light fell on
         lost_area_fraction              largest of the parts': where it is not small, the cells are too large
         """
         parts = self.parts
         return {
+            "cell_mm": self._shape.cell_mm,
             "points": len(self.points),
             "parts": len(parts),
             "points_in_parts": sum(len(part.points) for part in parts),
@@ -121,14 +136,22 @@ class Shape:
             "lost_area_fraction": max((part.lost_area_fraction for part in parts), default=0.0),
         }
 
-    def exitance(self, irradiance: ArrayLike) -> NDArray[np.float64]:
+    def exitance(
+        self, irradiance: ArrayLike, *, progress: Callable[[float], bool] | None = None
+    ) -> NDArray[np.float64]:
         """What leaves the flesh, (n, 3), W/m^2, 0 or more; without light that enters skin again.
 
         At a vertex it is the mean about it, weighted by the hat function of its triangles.
 
         irradiance  (v, 3), or (v,) for all channels alike: at each vertex, W/m^2, finite; linear on triangles, diffuse
         """
-        return self._shape.exitance(irradiance)
+        return self._shape.exitance(irradiance, progress)
+
+    def exitance_error(
+        self, irradiance: ArrayLike, *, progress: Callable[[float], bool] | None = None
+    ) -> NDArray[np.float64]:
+        """How far off `exitance` of that irradiance is taken to be, (n, 3), W/m^2: see LitShape.error."""
+        return self._shape.exitance_error(irradiance, progress)
 
     def light(
         self,
@@ -139,6 +162,7 @@ class Shape:
         *,
         excluded: Sequence[int] = (),
         shadow_samples: int = 16,
+        progress: Callable[[float], bool] | None = None,
     ) -> LitShape:
         """The body under lights, whose shadows it casts itself, and other objects.
 
@@ -151,7 +175,21 @@ class Shape:
         shadow_samples  rays to a light that has an extent, 1 to 4096
         """
         scene = None if occluders is None else occluders._scene
-        return LitShape(self._shape.light(lights, environment, scene, excluded, reentries, shadow_samples))
+        return LitShape(self._shape.light(lights, environment, scene, excluded, reentries, shadow_samples, progress))
+
+    def with_tissue(self, tissue: Tissue) -> Shape:
+        """The same body of another skin, at once and with what is prepared, for sliders.
+
+        Light goes on being solved for the flesh of the tissue that the shape was made of, and the other one's spectrum
+        is put together from that. How far off it is: docs/shape.md. A shape of coefficients has no tissue: ValueError.
+        """
+        return self._like(self._shape.with_tissue(tissue))
+
+    @classmethod
+    def _like(cls, shape: Any) -> Shape:  # of the compiled module
+        result = cls.__new__(cls)
+        result._shape = shape
+        return result
 
 
 class LitShape:
@@ -174,6 +212,15 @@ class LitShape:
         return self._lit.transmitted
 
     @cached_property
+    def error(self) -> NDArray[np.float64]:
+        """(n, 3): how far off the exitance is taken to be, W/m^2, as one standard deviation at each point.
+
+        From how far light has fallen, the medium and the cells; above the errors measured in docs/shape.md, up to three
+        times. Surface and medium are taken as they are given.
+        """
+        return self._lit.error()
+
+    @cached_property
     def irradiance(self) -> NDArray[np.float64]:
         """(v, 3): at the vertices, of lights and world, shadows included; 0 where it does not matter."""
         return self._lit.irradiance
@@ -183,14 +230,25 @@ class LitShape:
         """(k, n, 3): exitance by light alone. Solved when it is first asked for, each light by itself."""
         return self._lit.per_light()
 
-    def recolor(self, colors: ArrayLike) -> NDArray[np.float64]:
+    def recolor(self, colors: ArrayLike, *, progress: Callable[[float], bool] | None = None) -> NDArray[np.float64]:
         """(n, 3): the exitance with other colors of the lights; sums alone once this or per_light was asked for.
 
         colors  (k, 3), linear Rec.709, finite, 0 or more, instead of the lights' own
         """
-        return self._lit.recolor(colors)
+        return self._lit.recolor(colors, progress)
+
+    def with_tissue(self, tissue: Tissue) -> LitShape:
+        """The same light in another skin, in milliseconds and without solving: see Shape.with_tissue."""
+        return LitShape(self._lit.with_tissue(tissue))
 
     @property
     def report(self) -> dict[str, Any]:
-        """left_out: indices of lights that give nothing, or all together less than a thousandth of the light."""
-        return {"left_out": self._lit.left_out}
+        """What was left out, and how far off the light is taken to be.
+
+        left_out  indices of lights that give nothing, or all together less than a thousandth of the light
+        error     (3,): RMS of `error` over the mean of the exitance, of all points
+        """
+        mean = self.exitance.mean(axis=0)
+        rms = np.sqrt((self.error**2).mean(axis=0))
+        error = np.divide(rms, mean, out=np.zeros(3), where=mean > 0.0)
+        return {"left_out": self._lit.left_out, "error": error}

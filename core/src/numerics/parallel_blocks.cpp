@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "numerics/job.h"
+
 namespace skinglow::detail {
 
 void for_each_block(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& work,
@@ -16,6 +18,7 @@ void for_each_block(std::size_t count, int threads, const std::function<void(std
     const std::size_t used = std::min(wanted, (count + block - 1) / block);
     std::atomic<std::size_t> next = 0;
     std::atomic<std::size_t> finished = 0;
+    Job* const job = Job::current();
     std::mutex failing;
     std::exception_ptr failure;
     // The first failure ends the work of all threads.
@@ -30,6 +33,7 @@ void for_each_block(std::size_t count, int threads, const std::function<void(std
     };
     const auto take_blocks = [&](bool is_caller) {
         for (std::size_t begin = next.fetch_add(block); begin < count; begin = next.fetch_add(block)) {
+            stop_if_asked();
             const std::size_t end = std::min(begin + block, count);
             work(begin, end);
             finished += end - begin;
@@ -40,7 +44,10 @@ void for_each_block(std::size_t count, int threads, const std::function<void(std
         std::vector<std::jthread> helpers;  // which are joined at the end of the scope
         guarded([&] {
             for (std::size_t i = 1; i < used; ++i)
-                helpers.emplace_back([&] { guarded([&] { take_blocks(false); }); });
+                helpers.emplace_back([&] {
+                    const Job::Scope scope(job);
+                    guarded([&] { take_blocks(false); });
+                });
             take_blocks(true);
         });
     }

@@ -9,7 +9,7 @@ namespace skinglow::detail {
 
 /// Calls `work(begin, end)` for blocks that together are 0 to count, each once, on several threads: the caller's and
 /// helpers, all joined on return. Plain threads, so that no pool is shared with a host's library. What `work` or `done`
-/// throws first stops the rest and is rethrown.
+/// throws first stops the rest and is rethrown. Works for the caller's job (job.h), and ends when that is stopped.
 /// @param threads  0: one for each processor
 /// @param done     told the number finished so far after each block that the calling thread does; may be empty
 /// @param block    items per task: amortizes scheduling, and keeps canceling responsive (some milliseconds)

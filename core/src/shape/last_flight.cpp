@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "numerics/job.h"
 #include "numerics/parallel_blocks.h"
 #include "shape/random_numbers.h"
 #include "shape/surface_optics.h"
@@ -254,6 +255,8 @@ LastFlight last_flight(const FleshSurface& surface, const VoxelGrid& grid, const
         for (std::size_t b = begin; b < end; ++b) {
             const std::size_t last = std::min(sites.size(), (b + 1) * sites_per_block);
             for (std::size_t i = b * sites_per_block; i < last; ++i) tracer.trace(all, sites[i], rows[b]);
+            stop_if_asked();
+            finish_work(static_cast<double>(last - b * sites_per_block));
         }
     };
     for_each_block(blocks, options.threads, work, {}, per_run);

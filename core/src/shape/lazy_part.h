@@ -16,11 +16,13 @@ class Lazy {
   public:
     template <typename Make>
     const Value& get(const Make& make) const {
-        std::call_once(once_, [&] {
+        // One makes it, the others wait; where it fails or is stopped, the next one tries.
+        const std::lock_guard lock(making_);
+        if (ready() == nullptr) {
             auto made = std::make_unique<const Value>(make());
-            const std::lock_guard lock(access_);
+            const std::lock_guard storing(access_);
             value_ = std::move(made);
-        });
+        }
         return *value_;
     }
     /// None where it was not made yet.
@@ -30,7 +32,7 @@ class Lazy {
     }
 
   private:
-    mutable std::once_flag once_;
+    mutable std::mutex making_;
     mutable std::mutex access_;
     mutable std::unique_ptr<const Value> value_;
 };

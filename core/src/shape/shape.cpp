@@ -5,13 +5,16 @@
 #include <string>
 
 #include "numerics/argument_check.h"
-#include "shape/shape_data.h"
+#include "shape/shape_error.h"
 
 namespace skinglow {
 namespace {
 
 constexpr int spectral_node_count = 4;
 constexpr double min_cell_mm = 0.02;
+/// Chosen from a tolerance. Smaller ones are only slower: what is left is SP3's.
+constexpr double finest_chosen_mm = 0.3;
+constexpr double coarsest_chosen_mm = 1.6;
 
 void validate(const MeshView& mesh, const ShapeOptions& options, const ShapePoints& points) {
     if (mesh.triangles().empty()) refuse_argument("triangles", "empty", "at least one triangle");
@@ -28,6 +31,23 @@ void validate(const MeshView& mesh, const ShapeOptions& options, const ShapePoin
         require_finite(entry_name("points", i), points.points[i]);
     for (std::size_t i = 0; i < points.normals.size(); ++i)
         require_finite(entry_name("normals", i), points.normals[i]);
+}
+
+void require_irradiance(std::span<const glm::dvec3> irradiance, std::size_t vertices) {
+    if (irradiance.size() != vertices) {
+        refuse_argument("irradiance", std::to_string(irradiance.size()) + " entries",
+                        "one for each of " + std::to_string(vertices) + " vertices");
+    }
+    for (std::size_t i = 0; i < irradiance.size(); ++i)
+        require_finite(entry_name("irradiance", i), irradiance[i]);
+}
+
+/// With the cell that a tolerance asks for.
+ShapeOptions chosen(const ShapeOptions& given, const LaneMedium& medium) {
+    ShapeOptions result = given;
+    if (given.tolerance != 0)
+        result.cell_mm = cell_for(medium, given.tolerance, finest_chosen_mm, coarsest_chosen_mm);
+    return result;
 }
 
 double coefficient(const char* name, int channel, double value) {
@@ -66,31 +86,30 @@ LaneMedium lanes_of(const SpectralNodes& spectrum, SurfaceFinish finish) {
     return LaneMedium(media);
 }
 
-std::function<void(double)> reporting(const ShapeProgress& progress) {
-    return [&progress](double done) {
-        if (progress && !progress(0.99 * done)) throw ShapeCancelled();
-    };
-}
-
 }  // namespace
 
 namespace detail {
 
 ShapeData::ShapeData(const MeshView& mesh, const LaneMedium& medium, std::optional<SpectralNodes> nodes,
-                     const ShapeOptions& given, const ShapePoints& where, const ShapeProgress& progress)
+                     const ShapeOptions& given, const ShapePoints& where)
     : options(given),
       vertices(mesh.vertices().begin(), mesh.vertices().end()),
       spectrum(std::move(nodes)),
-      solver(mesh, where.points, where.normals, medium,
-             {given.unit_mm, given.cell_mm, given.max_thickness_mm, given.threads}, reporting(progress)) {
-    const Body& body = solver.body();
+      solver(std::make_shared<const ShapeSolver>(
+          mesh, where.points, where.normals, medium,
+          SolverOptions{given.unit_mm, given.cell_mm, given.max_thickness_mm, given.threads})) {
+    const Body& body = solver->body();
     if (where.points.empty()) {
         points = vertices;
     } else {
-        for (const Site& site : solver.sites().sites())
+        for (const Site& site : solver->sites().sites())
             points.push_back(body.origin() + glm::dvec3(site.position) / given.unit_mm);
     }
-    if (progress && !progress(1.0)) throw ShapeCancelled();
+    set_thick();
+}
+
+void run_or_cancel(const ShapeProgress& progress, const std::function<void()>& work) {
+    if (!run_job(progress, work)) throw ShapeCancelled();
 }
 
 }  // namespace detail
@@ -108,16 +127,29 @@ SurfaceFinish surface_finish(std::string_view name) {
 Shape::Shape(const MeshView& mesh, const ShapeMedium& medium, const ShapeOptions& options,
              const ShapePoints& points, const ShapeProgress& progress) {
     validate(mesh, options, points);
-    data_ = std::make_shared<const ShapeData>(mesh, lanes_of(medium, options.surface), std::nullopt, options,
-                                              points, progress);
+    run_or_cancel(progress, [&] {
+        const LaneMedium lanes = lanes_of(medium, options.surface);
+        data_ = std::make_shared<const ShapeData>(mesh, lanes, std::nullopt, chosen(options, lanes), points);
+    });
 }
 
 Shape::Shape(const MeshView& mesh, const Tissue& tissue, const ShapeOptions& options,
              const ShapePoints& points, const ShapeProgress& progress) {
     validate(mesh, options, points);
-    SpectralNodes spectrum = spectral_nodes(tissue, spectral_node_count);
-    const LaneMedium medium = lanes_of(spectrum, options.surface);
-    data_ = std::make_shared<const ShapeData>(mesh, medium, std::move(spectrum), options, points, progress);
+    run_or_cancel(progress, [&] {
+        SpectralNodes spectrum = spectral_nodes(tissue, spectral_node_count);
+        const LaneMedium medium = lanes_of(spectrum, options.surface);
+        data_ = std::make_shared<const ShapeData>(mesh, medium, std::move(spectrum), chosen(options, medium),
+                                                  points);
+    });
+}
+
+Shape Shape::with_tissue(const Tissue& tissue) const {
+    if (!data_->spectrum)
+        refuse_argument("tissue", "given", "none: this shape is of coefficients, not of a tissue");
+    Shape result = *this;
+    result.data_ = std::make_shared<const ShapeData>(*data_, tissue);
+    return result;
 }
 
 const std::vector<glm::dvec3>& Shape::points() const {
@@ -133,15 +165,15 @@ std::size_t Shape::vertices() const {
 }
 
 std::size_t Shape::bytes() const {
-    return data_->solver.bytes();
+    return data_->solver->bytes();
 }
 
 std::vector<ShapePart> Shape::parts() const {
-    std::vector<std::vector<std::uint32_t>> points_of(data_->solver.sites().sites().size());
-    const auto& site_of = data_->solver.sites().site_of();
+    std::vector<std::vector<std::uint32_t>> points_of(data_->solver->sites().sites().size());
+    const auto& site_of = data_->solver->sites().site_of();
     for (std::uint32_t i = 0; i < site_of.size(); ++i) points_of[site_of[i]].push_back(i);
     std::vector<ShapePart> result;
-    for (const auto& lazy : data_->solver.parts()) {
+    for (const auto& lazy : data_->solver->parts()) {
         ShapePart part{};
         for (const std::uint32_t s : lazy->part.sites)
             part.points.insert(part.points.end(), points_of[s].begin(), points_of[s].end());
@@ -160,18 +192,25 @@ std::vector<ShapePart> Shape::parts() const {
     return result;
 }
 
-std::vector<glm::dvec3> Shape::exitance(std::span<const glm::dvec3> irradiance) const {
-    if (irradiance.size() != vertices()) {
-        refuse_argument("irradiance", std::to_string(irradiance.size()) + " entries",
-                        "one for each of " + std::to_string(vertices()) + " vertices");
-    }
-    for (std::size_t i = 0; i < irradiance.size(); ++i)
-        require_finite(entry_name("irradiance", i), irradiance[i]);
-    const std::vector<glm::dvec3> of_sites = data_->solve(irradiance, 0).exitance;
-    std::vector<glm::dvec3> result;
-    result.reserve(points().size());
-    for (const std::uint32_t s : data_->solver.sites().site_of()) result.push_back(of_sites[s]);
-    return result;
+std::vector<glm::dvec3> Shape::exitance(std::span<const glm::dvec3> irradiance,
+                                        const ShapeProgress& progress) const {
+    require_irradiance(irradiance, vertices());
+    std::vector<glm::dvec3> of_sites;
+    run_or_cancel(progress, [&] { of_sites = data_->colors(data_->solve(irradiance, 0)).exitance; });
+    return data_->at_points(of_sites);
+}
+
+std::vector<glm::dvec3> Shape::exitance_error(std::span<const glm::dvec3> irradiance,
+                                              const ShapeProgress& progress) const {
+    require_irradiance(irradiance, vertices());
+    std::vector<glm::dvec3> of_sites;
+    run_or_cancel(progress, [&] {
+        const std::vector<SiteLight> solved = data_->solve(irradiance, 0);
+        std::vector<ColoredLight> lights;
+        add_colored(solved, lights);
+        of_sites = estimated_error(*data_, lights, irradiance);
+    });
+    return data_->at_points(of_sites);
 }
 
 }  // namespace skinglow

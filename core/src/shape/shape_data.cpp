@@ -1,8 +1,10 @@
 #include "shape/shape_data.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 
+#include "numerics/job.h"
 #include "numerics/parallel_blocks.h"
 
 namespace skinglow::detail {
@@ -10,14 +12,13 @@ namespace {
 
 /// Of the residual, in the preconditioner's norm: leaves 1 % where a thousandth comes through.
 constexpr double tolerance = 1e-4;
+/// Over what a half-space sends back: the grid's errors on lit skin are below.
+constexpr float largest_sent_back = 1.1F;
+constexpr double thinnest_mm = 1;
 constexpr std::size_t sites_per_block = 512;
 
 Lanes each_channel(const glm::dvec3& rgb) {
     return {{static_cast<float>(rgb.r), static_cast<float>(rgb.g), static_cast<float>(rgb.b), 0}};
-}
-
-glm::dvec3 to_rgb(const Lanes& lanes) {
-    return {lanes[0], lanes[1], lanes[2]};
 }
 
 }  // namespace
@@ -44,55 +45,127 @@ Lanes ShapeData::on_the_way() const {
     });
 }
 
-void ShapeData::add_channel(Colors& colors, std::span<const Lanes> light, int reentries, int channel) const {
-    const SiteLight found = solver.solve(light, tolerance, reentries, on_the_way());
-    const auto color = [&](const Lanes& lanes) {
-        const glm::dmat3 matrix = combine(lanes);
-        return channel < 0 ? matrix * glm::dvec3(1.0) : matrix[channel];
-    };
-    const auto work = [&](std::size_t begin, std::size_t end) {
-        for (std::size_t s = begin; s < end; ++s) {
-            colors.exitance[s] += color(found.exitance[s]);
-            colors.reflected[s] += color(found.reflected[s]);
-        }
-    };
-    for_each_block(colors.exitance.size(), options.threads, work, {}, sites_per_block);
+ShapeData::ShapeData(const ShapeData& other, const Tissue& tissue)
+    : options(other.options),
+      vertices(other.vertices),
+      points(other.points),
+      spectrum(spectral_nodes(tissue, other.spectrum.value())),
+      solver(other.solver) {
+    set_thick();
 }
 
-ShapeData::Colors ShapeData::solve(std::span<const glm::dvec3> irradiance, int reentries) const {
-    const std::size_t sites = solver.sites().sites().size();
-    Colors colors{std::vector<glm::dvec3>(sites, glm::dvec3(0.0)),
-                  std::vector<glm::dvec3>(sites, glm::dvec3(0.0))};
+void ShapeData::set_thick() {
+    if (!spectrum) return;
+    for (std::size_t k = 0; k < spectrum->nodes.size(); ++k) {
+        // The layered solution has a smooth surface.
+        const SpectralNodes::Node& node = spectrum->nodes[k];
+        const double smooth = sp3_medium(node.absorption, node.reduced_scattering, spectrum->refractive_index,
+                                         ShapeSurface::smooth)
+                                  .half_space;
+        thick_.push_back(spectrum->thick[k] * (solver->medium()[k].half_space / smooth));
+        all_thick_ += thick_.back();
+    }
+}
+
+ShapeData::Pair ShapeData::combine(const Lanes& all, const Lanes& of_half_space) const {
+    if (!spectrum) return {combine(all), combine(of_half_space)};
+    // The first node is the least absorbed: what it has enters again where that matters.
+    const double irradiance = static_cast<double>(of_half_space[0]) / solver->medium()[0].half_space;
+    Pair result{glm::dmat3(0.0), all_thick_ * irradiance};
+    // Hardly anything comes through at the most absorbed node: the part that it has of its half-space is due to
+    // the shape and to the grid, for all nodes alike.
+    const std::size_t last = thick_.size() - 1;
+    const float sent_back =
+        of_half_space[last] > 0 ? std::min(largest_sent_back, all[last] / of_half_space[last]) : 0.0F;
+    Lanes through = all;
+    for (std::size_t k = 0; k < thick_.size(); ++k) {
+        if (!(of_half_space[k] > 0)) continue;
+        const float part = std::min(sent_back, all[k] / of_half_space[k]);
+        result.exitance += thick_[k] * (static_cast<double>(part) * irradiance);
+        through[k] = std::max(0.0F, all[k] - part * of_half_space[k]);
+    }
+    if (sent_back > 0) {
+        // As through this much flesh at least: blue light beyond the last node would be the grid's errors.
+        const LaneMedium& medium = solver->medium();
+        const double fall = thinnest_mm * (medium[last].decay[0] - medium[last - 1].decay[0]);
+        const float largest = through[last - 1] * static_cast<float>(std::exp(-fall));
+        if (!(through[last] > 0 && through[last] < largest)) through[last] = largest;
+    }
+    result.exitance += combine(through);
+    return result;
+}
+
+std::vector<glm::dvec3> ShapeData::at_points(const std::vector<glm::dvec3>& of_sites) const {
+    std::vector<glm::dvec3> result;
+    result.reserve(points.size());
+    for (const std::uint32_t s : solver->sites().site_of()) result.push_back(of_sites[s]);
+    return result;
+}
+
+std::vector<SiteLight> ShapeData::solve(std::span<const glm::dvec3> irradiance, int reentries) const {
     std::vector<Lanes> light(irradiance.size());
+    std::vector<SiteLight> result;
     if (!spectrum) {
+        expect_work(solver->solve_work(reentries));
         std::transform(irradiance.begin(), irradiance.end(), light.begin(), each_channel);
-        const SiteLight found = solver.solve(light, tolerance, reentries);
-        std::transform(found.exitance.begin(), found.exitance.end(), colors.exitance.begin(), to_rgb);
-        std::transform(found.reflected.begin(), found.reflected.end(), colors.reflected.begin(), to_rgb);
-        return colors;
+        result.push_back(solver->solve(light, tolerance, reentries));
+        return result;
     }
     // Light of each channel goes through the flesh by itself; gray light once.
     const bool is_gray = std::all_of(irradiance.begin(), irradiance.end(),
                                      [](const glm::dvec3& e) { return e.r == e.g && e.g == e.b; });
-    for (int c = is_gray ? -1 : 0; c < (is_gray ? 0 : 3); ++c) {
+    const int channels = is_gray ? 1 : 3;
+    expect_work(channels * solver->solve_work(reentries));
+    for (int c = 0; c < channels; ++c) {
         for (std::size_t i = 0; i < light.size(); ++i)
-            light[i] = Lanes::all(static_cast<float>(irradiance[i][std::max(c, 0)]));
-        add_channel(colors, light, reentries, c);
+            light[i] = Lanes::all(static_cast<float>(irradiance[i][c]));
+        result.push_back(solver->solve(light, tolerance, reentries, on_the_way()));
     }
-    for (glm::dvec3& e : colors.exitance) e = glm::max(e, glm::dvec3(0.0));
-    return colors;
+    return result;
 }
 
-ShapeData::Matrices ShapeData::matrices(std::span<const float> irradiance, int reentries) const {
+SiteLight ShapeData::solve_white(std::span<const float> irradiance, int reentries) const {
     std::vector<Lanes> light(irradiance.size());
     std::transform(irradiance.begin(), irradiance.end(), light.begin(), Lanes::all);
-    const SiteLight found = solver.solve(light, tolerance, reentries, on_the_way());
-    Matrices result{std::vector<glm::mat3>(found.exitance.size()),
-                    std::vector<glm::mat3>(found.exitance.size())};
+    return solver->solve(light, tolerance, reentries, on_the_way());
+}
+
+ShapeData::Colors ShapeData::colors(std::span<const SiteLight> solved) const {
+    const std::size_t sites = solver->sites().sites().size();
+    Colors result{std::vector<glm::dvec3>(sites, glm::dvec3(0.0)),
+                  std::vector<glm::dvec3>(sites, glm::dvec3(0.0))};
+    // Of three channels each has its column; gray light has all of them.
+    const auto add = [&](std::size_t s, std::size_t of, const glm::dvec3& color) {
+        const Pair pair = combine(solved[of].exitance[s], solved[of].reflected[s]);
+        result.exitance[s] += pair.exitance * color;
+        result.reflected[s] += pair.reflected * color;
+    };
     const auto work = [&](std::size_t begin, std::size_t end) {
         for (std::size_t s = begin; s < end; ++s) {
-            result.exitance[s] = glm::mat3(combine(found.exitance[s]));
-            result.reflected[s] = glm::mat3(combine(found.reflected[s]));
+            if (solved.size() == 1) {
+                add(s, 0, glm::dvec3(1.0));
+            } else {
+                for (int c = 0; c < 3; ++c) {
+                    glm::dvec3 channel(0.0);
+                    channel[c] = 1.0;
+                    add(s, static_cast<std::size_t>(c), channel);
+                }
+            }
+            result.exitance[s] = glm::max(result.exitance[s], glm::dvec3(0.0));
+        }
+    };
+    for_each_block(sites, options.threads, work, {}, sites_per_block);
+    return result;
+}
+
+ShapeData::Matrices ShapeData::matrices(const SiteLight& solved) const {
+    Matrices result{std::vector<glm::mat3>(solved.exitance.size()),
+                    std::vector<glm::mat3>(solved.exitance.size())};
+    const auto work = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t s = begin; s < end; ++s) {
+            const Pair pair = combine(solved.exitance[s], solved.reflected[s]);
+            result.exitance[s] = glm::mat3(pair.exitance);
+            result.reflected[s] = glm::mat3(pair.reflected);
         }
     };
     for_each_block(result.exitance.size(), options.threads, work, {}, sites_per_block);

@@ -5,46 +5,75 @@
 #include <glm/mat3x3.hpp>
 #include <optional>
 
+#include "numerics/job.h"
 #include "shape/shape_solver.h"
 #include "shape/spectral_nodes.h"
 
 namespace skinglow::detail {
 
-/// What a shape holds: the solver by nodes, and how nodes make colors.
+/// What a shape holds: the solver by nodes, and how nodes make colors. Light is solved at the nodes and
+/// stays there as SiteLight, so that another tissue can make other colors of it.
 struct ShapeData {
     ShapeData(const MeshView& mesh, const LaneMedium& medium, std::optional<SpectralNodes> spectrum,
-              const ShapeOptions& options, const ShapePoints& points, const ShapeProgress& progress);
+              const ShapeOptions& options, const ShapePoints& points);
+    /// The same flesh by another tissue, at the nodes that are there.
+    ShapeData(const ShapeData& other, const Tissue& tissue);
 
-    /// Exitance of the sites, and what of it a half-space has, from the irradiance of three channels.
+    /// The light of three channels at the nodes. One of a medium of three channels, whose lanes they are, and
+    /// of gray light; else one per channel.
+    /// @param irradiance  one per vertex
+    std::vector<SiteLight> solve(std::span<const glm::dvec3> irradiance, int reentries) const;
+    /// The same of white light.
+    SiteLight solve_white(std::span<const float> irradiance, int reentries) const;
+
+    /// Exitance of the sites, and what of it a half-space has.
     struct Colors {
         std::vector<glm::dvec3> exitance;
         std::vector<glm::dvec3> reflected;
     };
-    /// @param irradiance  one per vertex
-    Colors solve(std::span<const glm::dvec3> irradiance, int reentries) const;
+    /// @param solved  of solve()
+    Colors colors(std::span<const SiteLight> solved) const;
 
-    /// The matrix of each site from the irradiance of white light at the vertices, and that of what a
-    /// half-space has of it.
+    /// For white light the matrix of each site, and that of what a half-space has of it.
     struct Matrices {
         std::vector<glm::mat3> exitance;
         std::vector<glm::mat3> reflected;
     };
-    Matrices matrices(std::span<const float> irradiance, int reentries) const;
+    Matrices matrices(const SiteLight& solved) const;
 
     /// What the epidermis lets through of light that leaves skin and enters again, by node.
     Lanes on_the_way() const;
 
-    /// The matrix M of a site, exitance M E of light of color E, from its exitance at the nodes.
-    glm::dmat3 combine(const Lanes& exitance) const;
+    /// The matrices M of a site, exitance M E of light of color E, and that of what a half-space has of it.
+    ///
+    /// Of a tissue, what nodes have beyond their half-spaces' is put together as light that comes through. Up
+    /// to that they are parts of what thick skin sends back, which is known: it follows no common law with what
+    /// comes through, and wavelengths beyond the last node would be guessed.
+    struct Pair {
+        glm::dmat3 exitance;
+        glm::dmat3 reflected;
+    };
+    /// @param exitance  at the nodes
+    /// @param reflected what a half-space has of it
+    Pair combine(const Lanes& exitance, const Lanes& reflected) const;
+
+    std::vector<glm::dvec3> at_points(const std::vector<glm::dvec3>& of_sites) const;
 
     ShapeOptions options;
     std::vector<glm::dvec3> vertices;  ///< as given
     std::vector<glm::dvec3> points;
     std::optional<SpectralNodes> spectrum;  ///< none: three channels
-    ShapeSolver solver;
+    std::shared_ptr<const ShapeSolver> solver;
 
   private:
-    void add_channel(Colors& colors, std::span<const Lanes> light, int reentries, int channel) const;
+    glm::dmat3 combine(const Lanes& exitance) const;
+    void set_thick();
+
+    std::vector<glm::dmat3> thick_;  ///< as SpectralNodes::thick, of the surface of the body
+    glm::dmat3 all_thick_{0.0};
 };
+
+/// Runs long work that `progress` may stop, told of it on this thread; throws ShapeCancelled.
+void run_or_cancel(const ShapeProgress& progress, const std::function<void()>& work);
 
 }  // namespace skinglow::detail

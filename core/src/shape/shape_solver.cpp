@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "numerics/job.h"
 #include "numerics/parallel_blocks.h"
 
 namespace skinglow::detail {
@@ -25,6 +26,8 @@ constexpr double max_refined_places = 4e6;  // with cells smaller than asked for
 constexpr double opaque = 3;
 /// Rays from a vertex whose exitance is only wanted as light for others.
 constexpr int reentry_rays = 32;
+/// What solving takes, by site, where making a site's rows is 1.
+constexpr double work_of_solved = 0.02;
 
 double margin_of(const LaneMedium& medium, const SolverOptions& options) {
     const double decay = medium.min_decay();
@@ -48,6 +51,12 @@ double cell_of(const ThinPart& part, const Body& body, const SurfaceSites& sites
     return cell;
 }
 
+bool shines_on(const ThinPart& part, std::span<const Lanes> light) {
+    return std::any_of(part.vertices.begin(), part.vertices.end(), [&](std::uint32_t v) {
+        return std::any_of(std::begin(light[v].v), std::end(light[v].v), [](float e) { return e != 0; });
+    });
+}
+
 SurfaceSites make_sites(const Body& body, const TriangleTree& tree, std::span<const glm::dvec3> points,
                         std::span<const glm::dvec3> normals) {
     if (points.empty()) return SurfaceSites(body);
@@ -62,16 +71,18 @@ SurfaceSites make_sites(const Body& body, const TriangleTree& tree, std::span<co
 
 ShapeSolver::ShapeSolver(const MeshView& mesh, std::span<const glm::dvec3> points,
                          std::span<const glm::dvec3> normals, const LaneMedium& medium,
-                         const SolverOptions& options, const std::function<void(double)>& done)
+                         const SolverOptions& options)
     : options_(options),
       body_(mesh, options.unit_mm),
       surface_(body_, options.cell_mm),
       sites_(make_sites(body_, surface_.tree(), points, normals)),
       medium_(medium),
       margin_(margin_of(medium, options)) {
-    const auto count = static_cast<double>(std::max<std::size_t>(1, sites_.sites().size()));
+    expect_work(static_cast<double>(sites_.sites().size()));
+    std::size_t done = 0;
     const auto thickness = site_thickness(surface_, sites_, options.threads, [&](std::size_t sites) {
-        if (done) done(static_cast<double>(sites) / count);
+        finish_work(static_cast<double>(sites - done));
+        done = sites;
     });
     is_solved_.assign(sites_.sites().size(), 0);
     const double max_thickness = std::min(options.max_thickness_mm, thickness_in_decays / medium.min_decay());
@@ -108,6 +119,7 @@ const VertexRows& ShapeSolver::vertex_rows(const LazyPart& part) const {
         }
         std::sort(rows.sites.begin(), rows.sites.end());
         rows.sites.erase(std::unique(rows.sites.begin(), rows.sites.end()), rows.sites.end());
+        expect_work(static_cast<double>(rows.sites.size()));
         rows.flight = solver.flight_of(surface_, vertex_sites(), rows.sites, medium_,
                                        {.rays = reentry_rays, .threads = options_.threads});
         return rows;
@@ -168,12 +180,9 @@ std::vector<Lanes> ShapeSolver::half_space(const SurfaceSites& of, std::span<con
     return result;
 }
 
-void ShapeSolver::solve_part(const LazyPart& part, std::span<const Lanes> light, double tolerance,
-                             std::span<Lanes> of_sites, std::span<Lanes> of_vertex_sites) const {
-    const auto& vertices = part.part.vertices;
-    const bool is_lit = std::any_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) {
-        return std::any_of(std::begin(light[v].v), std::end(light[v].v), [](float e) { return e != 0; });
-    });
+void ShapeSolver::solve_part(const LazyPart& part, bool is_lit, std::span<const Lanes> light,
+                             double tolerance, std::span<Lanes> of_sites,
+                             std::span<Lanes> of_vertex_sites) const {
     const std::vector<std::uint32_t>& sites = part.part.sites;
     std::vector<Lanes> out(sites.size());
     if (is_lit) {
@@ -210,9 +219,17 @@ SiteLight ShapeSolver::solve(std::span<const Lanes> light, double tolerance, int
         const bool has_points = !sites_.are_vertices();
         std::vector<Lanes> of_vertices;
         if (goes_on && has_points) of_vertices = half_space(vertex_sites(), entering);
+        std::vector<std::uint8_t> is_lit;
+        for (const auto& part : parts_) {
+            is_lit.push_back(shines_on(part->part, entering) ? 1 : 0);
+            if (is_lit.back() != 0 && part->solver.ready() == nullptr)
+                expect_work(static_cast<double>(part->part.sites.size()));
+        }
         const auto work = [&](std::size_t begin, std::size_t end) {
-            for (std::size_t p = begin; p < end; ++p)
-                solve_part(*parts_[p], entering, tolerance, exitance, of_vertices);
+            for (std::size_t p = begin; p < end; ++p) {
+                solve_part(*parts_[p], is_lit[p] != 0, entering, tolerance, exitance, of_vertices);
+                finish_work(work_of_solved * static_cast<double>(parts_[p]->part.sites.size()));
+            }
         };
         for_each_block(parts_.size(), options_.threads, work, {}, 1);
         if (pass == 0) {
@@ -230,6 +247,12 @@ SiteLight ShapeSolver::solve(std::span<const Lanes> light, double tolerance, int
         entering = reentry().irradiance(leaving, options_.threads);
         for (Lanes& e : entering) e = e * on_the_way;
     }
+}
+
+double ShapeSolver::solve_work(int reentries) const {
+    std::size_t sites = 0;
+    for (const auto& part : parts_) sites += part->part.sites.size();
+    return work_of_solved * static_cast<double>(sites) * (reentries + 1);
 }
 
 std::size_t ShapeSolver::bytes() const {

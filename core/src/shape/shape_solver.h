@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -29,10 +28,8 @@ class ShapeSolver {
   public:
     /// @param points   points whose exitance is asked, units of the mesh; none: its vertices
     /// @param normals  one each; none: of the nearest triangle
-    /// @param done     told the fraction done, in [0, 1]
     ShapeSolver(const MeshView& mesh, std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals,
-                const LaneMedium& medium, const SolverOptions& options,
-                const std::function<void(double)>& done);
+                const LaneMedium& medium, const SolverOptions& options);
     ShapeSolver(const ShapeSolver&) = delete;
     ShapeSolver& operator=(const ShapeSolver&) = delete;
 
@@ -54,6 +51,8 @@ class ShapeSolver {
     const std::vector<std::unique_ptr<LazyPart>>& parts() const { return parts_; }
     const LaneMedium& medium() const { return medium_; }
     std::size_t bytes() const;
+    /// Of a job: what solve() takes, where rows of a site are 1. It expects by itself what it makes ready.
+    double solve_work(int reentries) const;
 
   private:
     const PartSolver& solver_of(const LazyPart& part) const;
@@ -61,7 +60,7 @@ class ShapeSolver {
     const Reentry& reentry() const;
     Lanes light_at(const SurfaceSites& of, const Site& site, std::span<const Lanes> light) const;
     std::vector<Lanes> half_space(const SurfaceSites& of, std::span<const Lanes> light) const;
-    void solve_part(const LazyPart& part, std::span<const Lanes> light, double tolerance,
+    void solve_part(const LazyPart& part, bool is_lit, std::span<const Lanes> light, double tolerance,
                     std::span<Lanes> of_sites, std::span<Lanes> of_vertex_sites) const;
 
     SolverOptions options_;

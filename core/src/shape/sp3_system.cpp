@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numerics/job.h"
+
 namespace skinglow::detail {
 namespace {
 
@@ -175,6 +177,7 @@ int Sp3System::solve(std::span<const LanePair> right, std::span<LanePair> modes,
     LaneSum rz = dot(residual, cells(z));
     int iteration = 0;
     for (; iteration < max_iterations; ++iteration) {
+        stop_if_asked();
         Lanes is_open;
         bool any = false;
         for (std::size_t k = 0; k < lane_count; ++k) {

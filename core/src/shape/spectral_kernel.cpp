@@ -31,9 +31,14 @@ void sum_runs(const SpectralSamples& samples, std::span<const float> at_nodes, f
         const float first = at_nodes[run.segment];
         const float second = at_nodes[run.segment + 1];
         // A polynomial may oscillate between nodes that differ by orders of magnitude: it stays between its
-        // neighbors. exp is 0 below -87, not far above the least number there is.
-        const Vector low = hn::Set(tag, std::max(-86.0F, run.between ? std::min(first, second) : -86.0F));
-        const Vector high = hn::Set(tag, std::max(-86.0F, run.between ? std::max(first, second) : limit));
+        // neighbors, and beyond the last node below that. exp is 0 below -87, not far above the least number
+        // there is.
+        const bool between = run.side == NodeSide::between;
+        const float largest = run.side == NodeSide::before ? limit
+                              : between                    ? std::max(first, second)
+                                                           : second;
+        const Vector low = hn::Set(tag, std::max(-86.0F, between ? std::min(first, second) : -86.0F));
+        const Vector high = hn::Set(tag, std::max(-86.0F, largest));
         for (std::size_t i = run.begin; i < run.end; i += step) {
             Vector logarithm = hn::Zero(tag);
             for (std::size_t k = 0; k < at_nodes.size(); ++k)

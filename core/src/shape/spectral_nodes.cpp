@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "numerics/argument_check.h"
+#include "shape/thick_skin.h"
 #include "skin/skin_optics.h"
 
 namespace skinglow::detail {
@@ -46,7 +47,7 @@ struct Medium {
 /// Plane skin at the two thicknesses: the logarithm of what comes through.
 using TwoLogs = std::array<double, exact_at_mm.size()>;
 
-/// Of the logarithm, beyond the first or last node: noise of nodes could make it any.
+/// Of the logarithm, before the first node: noise of nodes could make it any.
 constexpr double largest_gain = 2.0;
 
 /// Below the brightest node's, the least that counts of another one's logarithm.
@@ -80,15 +81,6 @@ bool fill_unknown(std::span<double> logs) {
         }
     }
     return true;
-}
-
-std::vector<Medium> inner_media(const Tissue& tissue, std::span<const double> wavelength_nm) {
-    std::vector<Medium> media;
-    media.reserve(wavelength_nm.size());
-    for (const SkinMedia& skin : SkinOptics(tissue, wavelength_nm).media) {
-        media.emplace_back(skin.inner.absorption, skin.inner.scattering * (1.0 - skin.inner.anisotropy));
-    }
-    return media;
 }
 
 /// A medium on the line that the wavelengths' media form when they are sorted by attenuation.
@@ -131,61 +123,85 @@ double matching_place(const NodeInterpolation& nodes, std::span<const double> fa
     return 0.5 * (low + high);
 }
 
-}  // namespace
+/// A tissue at all wavelengths.
+struct SkinSamples {
+    std::vector<double>
+        through;  ///< transmittance of plane skin: all of the first thickness, then the second
+    std::vector<std::size_t> order;  ///< wavelengths ascending by the inner medium's attenuation
+    Spectrum thick;                  ///< thick_skin
+    std::vector<Medium> sorted;      ///< the inner media in that order
 
-SpectralNodes spectral_nodes(const Tissue& tissue, int count) {
-    if (count < SpectralNodes::min_count || count > SpectralNodes::max_count) {
-        refuse_argument("count of spectral nodes", std::to_string(count), "2 to 8");
+    explicit SkinSamples(const Tissue& tissue) : order(spectral_samples), thick(thick_skin(tissue)) {
+        Spectrum wavelength_nm{};
+        for (std::size_t k = 0; k < spectral_samples; ++k) wavelength_nm[k] = sample_wavelength_nm(k);
+        through = transmittance(tissue, exact_at_mm, wavelength_nm, Incidence::diffuse());
+        std::vector<Medium> media;
+        media.reserve(spectral_samples);
+        for (const SkinMedia& skin : SkinOptics(tissue, wavelength_nm).media)
+            media.emplace_back(skin.inner.absorption, skin.inner.scattering * (1.0 - skin.inner.anisotropy));
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return media[a].attenuation < media[b].attenuation;
+        });
+        sorted.reserve(order.size());
+        for (const std::size_t k : order) sorted.push_back(media[k]);
     }
-    Spectrum wavelength_nm{};
-    for (std::size_t k = 0; k < spectral_samples; ++k) wavelength_nm[k] = sample_wavelength_nm(k);
-    const std::vector<double> skin = transmittance(tissue, exact_at_mm, wavelength_nm, Incidence::diffuse());
+};
 
-    const std::vector<Medium> media = inner_media(tissue, wavelength_nm);
-    std::vector<std::size_t> order(media.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return media[a].attenuation < media[b].attenuation;
-    });
-    std::vector<Medium> sorted;
-    sorted.reserve(order.size());
-    for (const std::size_t k : order) sorted.push_back(media[k]);
+/// Media of nodes that are evenly spread over those of a tissue.
+std::vector<Medium> spread_media(const SkinSamples& skin, int count) {
+    const double first = skin.sorted.front().attenuation;
+    const double last =
+        std::min(skin.sorted.back().attenuation, std::max(largest_node_attenuation, 2.0 * first));
+    std::vector<Medium> media;
+    media.reserve(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) {
+        const NodePosition position = position_of(skin.sorted, first + (last - first) * i / (count - 1));
+        const Medium& a = skin.sorted[position.below];
+        const Medium& b = skin.sorted[position.below + 1];
+        media.emplace_back(std::lerp(a.absorption, b.absorption, position.fraction),
+                           std::lerp(a.reduced_scattering, b.reduced_scattering, position.fraction));
+    }
+    return media;
+}
 
-    // The nodes, evenly spread, and what plates of their media transmit.
-    const double first = sorted.front().attenuation;
-    const double last = std::min(sorted.back().attenuation, std::max(largest_node_attenuation, 2.0 * first));
-    std::vector<NodePosition> positions;
-    positions.reserve(static_cast<std::size_t>(count));
+/// Positions and factors of a tissue's wavelengths among nodes of these media.
+SpectralNodes assign(const SkinSamples& skin, std::span<const Medium> media, double refractive_index) {
     std::vector<double> at;
     std::vector<double> thin;   // logarithm of the transmittance at the first thickness, per node
     std::vector<double> falls;  // and by how much it falls to the second
-    std::vector<Medium> node_media;
-    node_media.reserve(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) {
-        const NodePosition position = position_of(sorted, first + (last - first) * i / (count - 1));
-        const Medium& a = sorted[position.below];
-        const Medium& b = sorted[position.below + 1];
-        const Medium medium(std::lerp(a.absorption, b.absorption, position.fraction),
-                            std::lerp(a.reduced_scattering, b.reduced_scattering, position.fraction));
-        const TwoLogs logs = plate(medium, tissue.refractive_index);
-        positions.push_back(position);
-        node_media.push_back(medium);
+    for (const Medium& medium : media) {
+        const TwoLogs logs = plate(medium, refractive_index);
         at.push_back(medium.attenuation);
         thin.push_back(logs[0]);
         falls.push_back(logs[0] - logs[1]);
     }
-
     const NodeInterpolation interpolation(at);
-    SpectralNodes result{.nodes = {}, .refractive_index = tissue.refractive_index, .samples = {}};
+    SpectralNodes result{.nodes = {}, .refractive_index = refractive_index, .thick = {}, .samples = {}};
+    result.thick.assign(media.size(), glm::dmat3(0.0));
+    const auto add_thick = [&](std::size_t k, double x) {
+        const auto above = std::upper_bound(at.begin() + 1, at.end() - 1, x);
+        const auto i = static_cast<std::size_t>(above - at.begin());
+        const double t = std::clamp((x - at[i - 1]) / (at[i] - at[i - 1]), 0.0, 1.0);
+        Spectrum one{};
+        one[k] = skin.thick[k];
+        const glm::dmat3 matrix = transmission_matrix(one);
+        result.thick[i - 1] += (1.0 - t) * matrix;
+        result.thick[i] += t * matrix;
+    };
     std::vector<double> factors(spectral_samples, 0.0);
     std::vector<SpectralSample> samples;
     samples.reserve(spectral_samples);
     for (std::size_t k = 0; k < spectral_samples; ++k) {
-        const double through_thin = skin[k];
-        const double through_thick = std::max(skin[spectral_samples + k], darkest);
-        if (!(through_thin > darkest)) continue;
+        const double through_thin = skin.through[k];
+        const double through_thick = std::max(skin.through[spectral_samples + k], darkest);
+        if (!(through_thin > darkest)) {
+            add_thick(k, at.back());
+            continue;
+        }
         const double x =
             matching_place(interpolation, falls, std::log(through_thin / through_thick), 10.0 * at.back());
+        add_thick(k, x);
         SpectralSample sample = interpolation.at(x);
         factors[k] = std::min(largest_factor, std::exp(std::log(through_thin) - value_of(sample, thin)));
         Spectrum one{};
@@ -193,16 +209,34 @@ SpectralNodes spectral_nodes(const Tissue& tissue, int count) {
         sample.matrix = factors[k] * transmission_matrix(one);
         samples.push_back(sample);
     }
-    result.samples = in_runs(samples, static_cast<std::size_t>(count));
-    for (std::size_t i = 0; i < positions.size(); ++i) {
+    result.samples = in_runs(samples, media.size());
+    for (const Medium& medium : media) {
         constexpr double smallest_factor = 1e-12;  // of a node behind an epidermis that lets nothing through
-        const NodePosition& position = positions[i];
+        const NodePosition position = position_of(skin.sorted, medium.attenuation);
         const double factor = std::sqrt(
-            std::max(smallest_factor, std::lerp(factors[order[position.below]],
-                                                factors[order[position.below + 1]], position.fraction)));
-        result.nodes.push_back({node_media[i].absorption, node_media[i].reduced_scattering, factor, factor});
+            std::max(smallest_factor, std::lerp(factors[skin.order[position.below]],
+                                                factors[skin.order[position.below + 1]], position.fraction)));
+        result.nodes.push_back({medium.absorption, medium.reduced_scattering, factor, factor});
     }
     return result;
+}
+
+}  // namespace
+
+SpectralNodes spectral_nodes(const Tissue& tissue, int count) {
+    if (count < SpectralNodes::min_count || count > SpectralNodes::max_count) {
+        refuse_argument("count of spectral nodes", std::to_string(count), "2 to 8");
+    }
+    const SkinSamples skin(tissue);
+    return assign(skin, spread_media(skin, count), tissue.refractive_index);
+}
+
+SpectralNodes spectral_nodes(const Tissue& tissue, const SpectralNodes& of) {
+    std::vector<Medium> media;
+    media.reserve(of.nodes.size());
+    for (const SpectralNodes::Node& node : of.nodes)
+        media.emplace_back(node.absorption, node.reduced_scattering);
+    return assign(SkinSamples(tissue), media, of.refractive_index);
 }
 
 glm::dmat3 SpectralNodes::combine(std::span<const double> exitance_at_nodes) const {

@@ -42,6 +42,9 @@ struct SpectralNodes {
     ///        unknown and are taken from the other nodes; 0 for all nodes is no light.
     glm::dmat3 combine(std::span<const double> exitance_at_nodes) const;
 
+    /// One per node: together the matrix of what thick skin sends back (thick_skin.h), each wavelength given to
+    /// the two nodes next to it. What nodes have of their half-spaces is so many parts of the exact one.
+    std::vector<glm::dmat3> thick;
     SpectralSamples samples;  ///< the wavelengths, without those that skin lets nothing through at
 };
 
@@ -51,5 +54,10 @@ struct SpectralNodes {
 ///        in SkinLutReport's norm), 15 % where each epidermis is above 0.12 mm: an epidermis that absorbs is
 ///        more than a factor to 1 mm of skin, and more nodes do not help there.
 SpectralNodes spectral_nodes(const Tissue& tissue, int count = 4);
+
+/// Another tissue by the nodes that are there, so that what was solved at them need not be solved again: its
+/// wavelengths get positions between them and factors as above. The farther its flesh is from theirs, the
+/// less exact. Throws std::invalid_argument.
+SpectralNodes spectral_nodes(const Tissue& tissue, const SpectralNodes& of);
 
 }  // namespace skinglow::detail

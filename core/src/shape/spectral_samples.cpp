@@ -9,8 +9,9 @@ SpectralSample NodeInterpolation::at(double x) const {
     SpectralSample sample;
     const auto above = std::upper_bound(at_.begin() + 1, at_.end() - 1, x);
     sample.segment = static_cast<std::size_t>(above - at_.begin()) - 1;
-    sample.between = x >= at_.front() && x <= at_.back();
-    if (!sample.between) {
+    if (x < at_.front()) sample.side = NodeSide::before;
+    if (x > at_.back()) sample.side = NodeSide::beyond;
+    if (sample.side != NodeSide::between) {
         const double left = at_[sample.segment];
         const double t = (x - left) / (at_[sample.segment + 1] - left);
         sample.weight[sample.segment] = 1.0 - t;
@@ -30,14 +31,14 @@ SpectralSample NodeInterpolation::at(double x) const {
 double value_of(const SpectralSample& sample, std::span<const double> at_nodes) {
     double value = 0.0;
     for (std::size_t i = 0; i < at_nodes.size(); ++i) value += sample.weight[i] * at_nodes[i];
-    if (!sample.between) return value;
+    if (sample.side != NodeSide::between) return value;
     const auto [low, high] = std::minmax(at_nodes[sample.segment], at_nodes[sample.segment + 1]);
     return std::clamp(value, low, high);
 }
 
 SpectralSamples in_runs(std::span<const SpectralSample> samples, std::size_t nodes) {
-    const auto kind = [](const SpectralSample& sample) { return std::pair(sample.segment, sample.between); };
-    std::map<std::pair<std::size_t, bool>, std::vector<SpectralSample>> runs;
+    const auto kind = [](const SpectralSample& sample) { return std::pair(sample.segment, sample.side); };
+    std::map<std::pair<std::size_t, NodeSide>, std::vector<SpectralSample>> runs;
     for (const SpectralSample& sample : samples) runs[kind(sample)].push_back(sample);
     SpectralSamples result;
     for (const auto& [stands, members] : runs) {
@@ -48,7 +49,7 @@ SpectralSamples in_runs(std::span<const SpectralSample> samples, std::size_t nod
     }
     result.rows.assign((nodes + 9) * result.size, 0.0F);
     for (const SpectralSamples::Run& run : result.runs) {
-        const std::vector<SpectralSample>& members = runs.at({run.segment, run.between});
+        const std::vector<SpectralSample>& members = runs.at({run.segment, run.side});
         for (std::size_t i = 0; i < members.size(); ++i) {
             float* const column = result.rows.data() + run.begin + i;
             for (std::size_t k = 0; k < nodes; ++k)

@@ -13,11 +13,14 @@ namespace skinglow::detail {
 
 constexpr std::size_t max_spectral_nodes = 8;
 
+/// Where a wavelength stands: before all nodes, between the two of its segment, or beyond all.
+enum class NodeSide { before, between, beyond };
+
 /// One wavelength among the nodes.
 struct SpectralSample {
     std::array<double, max_spectral_nodes> weight{};  ///< of the nodes' logarithms; their sum is 1
     std::size_t segment = 0;                          ///< as in SpectralSamples::Run
-    bool between = true;
+    NodeSide side = NodeSide::between;
     glm::dmat3 matrix{0.0};  ///< what light of transmittance 1 contributes, times the epidermis' factor
 };
 
@@ -44,8 +47,8 @@ struct SpectralSamples {
 
     struct Run {
         std::size_t begin, end;
-        std::size_t segment;  ///< the nodes `segment` and `segment` + 1 stand around them ...
-        bool between;         ///< ... unless this is false: they are beyond the first or the last
+        std::size_t segment;  ///< the nodes `segment` and `segment` + 1 are next to them
+        NodeSide side;
     };
     std::vector<Run> runs;
     std::size_t size = 0;
@@ -56,9 +59,10 @@ struct SpectralSamples {
 
 SpectralSamples in_runs(std::span<const SpectralSample> samples, std::size_t nodes);
 
-/// The sum of exp(logarithm at a sample) times its row, for each of 9 entries.
+/// The sum of exp(logarithm at a sample) times its row, for each of 9 entries. Beyond the last node, which absorbs
+/// most, nothing is brighter than there: noise of dim nodes would grow.
 /// @param at_nodes  logarithms at the nodes, at most 0
-/// @param limit     of a sample's logarithm
+/// @param limit     of a sample's logarithm before the first node
 std::array<double, 9> sum_samples(const SpectralSamples& samples, std::span<const float> at_nodes,
                                   float limit);
 
