@@ -89,7 +89,10 @@ def _import(path: Path, split_groups: bool) -> list[bpy.types.Object]:
     if suffix in (".glb", ".gltf"):
         bpy.ops.import_scene.gltf(filepath=str(path))
     elif suffix == ".obj":
-        bpy.ops.wm.obj_import(filepath=str(path), use_split_groups=split_groups)
+        if "use_split_groups" in bpy.ops.wm.obj_import.get_rna_type().properties:
+            bpy.ops.wm.obj_import(filepath=str(path), use_split_groups=split_groups)
+        else:  # before Blender 3.6
+            bpy.ops.import_scene.obj(filepath=str(path), use_split_groups=split_groups)
     elif suffix == ".ply" and hasattr(bpy.ops.wm, "ply_import"):
         try:
             bpy.ops.wm.ply_import(filepath=str(path))
