@@ -1,8 +1,7 @@
-"""The scene of the guide's pictures: the demo's head at real size, a warm bulb behind one ear, a blue fill."""
+"""The scene of the guide's pictures: the demo's head at real size, a warm bulb behind one ear."""
 
 import bpy
-from blender_scene import light_behind_ear, load_head, skin_surface
-from mathutils import Vector
+from blender_scene import aim_camera, light_behind_ear, load_head, skin_surface, views_of
 
 #: As scripts/demo_steps/head_source.py says of MakeHuman's base mesh.
 JOB = {"unit_mm": 100.0, "group": "body", "eyes": ("helper-l-eye", "helper-r-eye"), "cut_below_m": 0.605}
@@ -22,13 +21,11 @@ def build_guide_scene(mesh: str) -> bpy.types.Object:
     scene.cycles.use_denoising = scene.cycles.use_preview_denoising = False
     scene.cycles.preview_samples = 32
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.010, 0.011, 0.013, 1.0)
-    key = light_behind_ear(scene, head)
-    key.name = "Behind the ear"
-    fill = bpy.data.objects.new("Fill", bpy.data.lights.new("Fill", "AREA"))
-    fill.data.color, fill.data.energy, fill.data.size = (0.4, 0.6, 1.0), 0.3, 0.3
-    fill.location = key.location + Vector((0.3, -0.8, 0.1))
-    fill.rotation_euler = (-Vector((0.3, -0.8, 0.1))).to_track_quat("-Z", "Y").to_euler()
-    scene.collection.objects.link(fill)
+    light_behind_ear(scene, head).name = "Behind the ear"
+    head.skinglow.weights = "SURFACE"
+    ear, height = views_of(head)["_ear"]
+    aim_camera(scene, ear, height, 0.9)
+    scene.render.resolution_x, scene.render.resolution_y, scene.cycles.samples = 640, 640, 128
     for obj in bpy.data.objects:
         obj.select_set(obj == head)
     bpy.context.view_layer.objects.active = head

@@ -100,7 +100,8 @@ def _draw_lighting(layout: bpy.types.UILayout, obj: bpy.types.Object, context: b
     column.prop(obj.skinglow, "weights")
     table = table_of(obj, context.view_layer.depsgraph)
     if table is not None and table.bound is not None:
-        draw_wrapped(column, f"Per Object would be up to {table.bound:.0%} off here", context, "INFO")
+        off = f"up to {table.bound:.0%}" if table.bound < 1.0 else "more than 100%"
+        draw_wrapped(column, f"Per Object would be {off} off here", context, "INFO")
     column.prop(context.scene.skinglow, "occlusion")
 
 
