@@ -12,11 +12,12 @@ from typing import Any
 
 from . import batch, bundled_core, preferences, scene_settings, skin_settings
 from .batch import BatchResult, BatchStep, Rig
-from .commands import freezing, light_listing, povray_export, skin
+from .commands import freezing, light_listing, povray_export, skin, thickness_map
 from .commands import health as skin_health
 from .commands.freezing import Frozen
 from .commands.health import Fault
 from .commands.skin import SkinState
+from .commands.thickness_map import BakedThickness
 from .errors import SkinError
 from .live import handlers
 from .live.live_update import Rebuilt
@@ -32,6 +33,7 @@ from .ui import (
     operators,
     presets,
     slot_choice,
+    thickness_operators,
 )
 
 bl_info = {
@@ -45,6 +47,7 @@ bl_info = {
 }
 
 __all__ = [
+    "BakedThickness",
     "BatchResult",
     "BatchStep",
     "Fault",
@@ -53,6 +56,7 @@ __all__ = [
     "Rig",
     "SkinError",
     "SkinState",
+    "bake_thickness",
     "batch_main",
     "export_povray",
     "freeze",
@@ -63,6 +67,7 @@ __all__ = [
     "register",
     "remove_skin",
     "render_batch",
+    "thickness_from_image",
     "unfreeze",
     "unregister",
     "update",
@@ -81,6 +86,7 @@ _PARTS = (
     slot_choice,
     measuring_operators,
     freeze_operators,
+    thickness_operators,
     presets,
     main_panel,
     menus,
@@ -127,6 +133,8 @@ health = _registering(skin_health.health)
 export_povray = _registering(povray_export.export_povray)
 freeze = _registering(freezing.freeze)
 unfreeze = _registering(freezing.unfreeze)
+bake_thickness = _registering(thickness_map.bake_thickness)
+thickness_from_image = _registering(thickness_map.thickness_from_image)
 remove_skin = _registering(skin.remove_skin)
 render_batch = _registering(batch.render_batch)
 batch_main = _registering(batch.main)
