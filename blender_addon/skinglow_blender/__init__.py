@@ -24,6 +24,7 @@ from .live.live_update import Rebuilt
 from .show import material_settings
 from .ui import (
     freeze_operators,
+    heat_map,
     light_list,
     lut_preview,
     main_panel,
@@ -34,6 +35,7 @@ from .ui import (
     presets,
     slot_choice,
     thickness_operators,
+    thickness_preview,
 )
 
 bl_info = {
@@ -87,6 +89,8 @@ _PARTS = (
     measuring_operators,
     freeze_operators,
     thickness_operators,
+    thickness_preview,
+    heat_map,
     presets,
     main_panel,
     menus,
