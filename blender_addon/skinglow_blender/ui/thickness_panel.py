@@ -70,8 +70,7 @@ class _ThicknessImage(SkinPanel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
-        layout.operator("skinglow.bake_thickness", text="Bake", icon="RENDER_STILL").format = "EXR"
-        layout.operator_menu_enum("skinglow.bake_thickness", "format", text="Bake As")
+        layout.operator_menu_enum("skinglow.bake_thickness", "format", text="Bake to Image", icon="RENDER_STILL")
         settings = context.object.skinglow
         layout.template_ID(settings, "thickness_image", open="image.open")
         layout.operator("skinglow.thickness_from_image", icon="IMPORT")
