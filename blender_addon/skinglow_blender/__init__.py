@@ -12,17 +12,19 @@ from typing import Any
 
 from . import batch, bundled_core, preferences, scene_settings, skin_settings
 from .batch import BatchResult, BatchStep, Rig
-from .commands import freezing, light_listing, povray_export, skin
+from .commands import freezing, light_listing, povray_export, skin, thickness_map
 from .commands import health as skin_health
 from .commands.freezing import Frozen
 from .commands.health import Fault
 from .commands.skin import SkinState
+from .commands.thickness_map import BakedThickness
 from .errors import SkinError
 from .live import handlers
 from .live.live_update import Rebuilt
 from .show import material_settings, subsurface
 from .ui import (
     freeze_operators,
+    heat_map,
     light_list,
     lut_preview,
     main_panel,
@@ -32,6 +34,8 @@ from .ui import (
     operators,
     presets,
     slot_choice,
+    thickness_operators,
+    thickness_preview,
 )
 
 bl_info = {
@@ -45,6 +49,7 @@ bl_info = {
 }
 
 __all__ = [
+    "BakedThickness",
     "BatchResult",
     "BatchStep",
     "Fault",
@@ -53,6 +58,7 @@ __all__ = [
     "Rig",
     "SkinError",
     "SkinState",
+    "bake_thickness",
     "batch_main",
     "export_povray",
     "freeze",
@@ -64,6 +70,7 @@ __all__ = [
     "remove_skin",
     "render_batch",
     "show_light_by",
+    "thickness_from_image",
     "unfreeze",
     "unregister",
     "update",
@@ -82,6 +89,9 @@ _PARTS = (
     slot_choice,
     measuring_operators,
     freeze_operators,
+    thickness_operators,
+    thickness_preview,
+    heat_map,
     presets,
     main_panel,
     menus,
@@ -128,6 +138,8 @@ health = _registering(skin_health.health)
 export_povray = _registering(povray_export.export_povray)
 freeze = _registering(freezing.freeze)
 unfreeze = _registering(freezing.unfreeze)
+bake_thickness = _registering(thickness_map.bake_thickness)
+thickness_from_image = _registering(thickness_map.thickness_from_image)
 remove_skin = _registering(skin.remove_skin)
 show_light_by = _registering(subsurface.show_light_by)
 render_batch = _registering(batch.render_batch)

@@ -335,6 +335,12 @@ class SkinSettings(bpy.types.PropertyGroup):
         description="Minimum fraction of the sky that a far side must see to let light in, so that the mouth and eye "
         "sockets stay dark; 0 accepts all far sides",
     )
+    thickness_image: PointerProperty(
+        name="Image",
+        type=bpy.types.Image,
+        options={"HIDDEN"},
+        description="Thickness in the UV map of the mesh: mm, or fractions of the thickness of white",
+    )
     group: PointerProperty(type=bpy.types.ShaderNodeTree, options={"HIDDEN"})
     row: IntProperty(default=-1, options={"HIDDEN"})
 
@@ -356,8 +362,9 @@ OVERRIDE = {"LIBRARY_OVERRIDABLE"}
 for _property in SkinSettings.__annotations__.values():
     _property.keywords["override"] = OVERRIDE
 
-#: The settings that `make_skin` accepts.
-SETTING_NAMES = tuple(name for name in SkinSettings.__annotations__ if name not in ("enabled", "group", "row"))
+#: What `make_skin` does not accept, and all that it does.
+NO_SETTINGS = ("enabled", "thickness_image", "group", "row")
+SETTING_NAMES = tuple(name for name in SkinSettings.__annotations__ if name not in NO_SETTINGS)
 
 
 #: Of these: how thickness is measured.

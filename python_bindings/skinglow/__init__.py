@@ -74,6 +74,15 @@ from skinglow._renamed import __getattr__ as __getattr__
 from skinglow._shape import LitShape, Shape, ShapePart
 from skinglow._spectra import line_spectrum
 from skinglow._thickness import ThicknessReport, thickness, thickness_report
+from skinglow._thickness_map import (
+    ThicknessImage,
+    ThicknessSummary,
+    bake_thickness,
+    gray_png,
+    sample_image,
+    thickness_colors,
+    thickness_summary,
+)
 
 __all__ = [
     "__version__",
@@ -155,7 +164,14 @@ __all__ = [
     "LitShape",
     "Shape",
     "ShapePart",
+    "ThicknessImage",
     "ThicknessReport",
+    "ThicknessSummary",
+    "bake_thickness",
+    "gray_png",
+    "sample_image",
     "thickness",
+    "thickness_colors",
     "thickness_report",
+    "thickness_summary",
 ]

@@ -177,6 +177,7 @@ def remove_skin(obj: bpy.types.Object) -> None:
     group = settings.group
     settings.enabled = False
     settings.property_unset("group")
+    settings.property_unset("thickness_image")
     for name in SETTING_NAMES:
         settings.property_unset(name)
     settings.property_unset("row")

@@ -23,6 +23,10 @@ MEASURED_MESH = "skinglow_measured_mesh"
 #: Mesh property: fraction of the vertices at which no far side was found.
 NO_FAR_SIDE = "skinglow_no_far_side"
 
+#: Mesh property: limit of the histogram in mm; min, median, max, mm; fraction above the limit; the histogram.
+SUMMARY = "skinglow_summary"
+HISTOGRAM_BINS = 32
+
 
 def is_measured(obj: bpy.types.Object, geometry: Geometry) -> bool:
     """Whether the stored thickness was measured on exactly this geometry, or is custom."""
@@ -122,8 +126,14 @@ def check_local(obj: bpy.types.Object) -> None:
         )
 
 
-def store(obj: bpy.types.Object, thickness_mm: Sequence[float], unit_mm: float) -> None:
-    """Stores thicknesses, one per vertex in mm, and the related mesh properties; unit_mm: mm per scene unit."""
+def store(
+    obj: bpy.types.Object, thickness_mm: Sequence[float], unit_mm: float, known: Sequence[bool] | None = None
+) -> None:
+    """Stores thicknesses, one per vertex in mm, and the related mesh properties.
+
+    unit_mm  mm per scene unit
+    known    where a vertex has one; None: everywhere
+    """
     check_local(obj)
     mesh = obj.data
     values = np.ascontiguousarray(thickness_mm, np.float32)
@@ -133,8 +143,12 @@ def store(obj: bpy.types.Object, thickness_mm: Sequence[float], unit_mm: float) 
         )
     if not np.isfinite(values).all() or (values < 0.0).any():
         raise SkinError(f"'{obj.name}': a thickness is negative or not finite; allowed: 0 mm or more")
-    _write(mesh, THICKNESS_ATTRIBUTE, values)
-    _write(mesh, KNOWN_ATTRIBUTE, np.ones_like(values))
+    known = np.ones(len(values), bool) if known is None else np.asarray(known, bool)
+    _write(mesh, THICKNESS_ATTRIBUTE, np.where(known, values, np.float32(0.0)))
+    _write(mesh, KNOWN_ATTRIBUTE, known.astype(np.float32))
+    limit = obj.skinglow.max_thickness_mm
+    found = core().thickness_summary(values[known], limit, HISTOGRAM_BINS)
+    mesh[SUMMARY] = [limit, found.min_mm, found.median_mm, found.max_mm, found.fraction_above, *found.histogram]
     mesh[MEASURED_GEOMETRY] = GIVEN
     mesh.pop(NO_FAR_SIDE, None)
     mesh.pop(MEASURED_MESH, None)
@@ -189,5 +203,6 @@ def remove(mesh: bpy.types.Mesh) -> None:
         MEASURED_GEOMETRY,
         MEASURED_MESH,
         NO_FAR_SIDE,
+        SUMMARY,
     ):
         mesh.pop(name, None)

@@ -1,0 +1,77 @@
+"""Runs in a Blender with a window: thickness in the panel and over the skin; facts as JSON lines, and pictures.
+
+Arguments after "--": the file of facts; the folders of scripts/panel_pictures, the add-on and the core.
+"""
+
+import json
+import sys
+from pathlib import Path
+
+facts_file, pictures_folder, addon_folder, core_folder = sys.argv[sys.argv.index("--") + 1 :]
+sys.path[:0] = [pictures_folder, addon_folder]
+sys.path.append(core_folder)
+
+import bpy  # noqa: E402
+import skinglow_blender as sb  # noqa: E402
+from panel_scene import build_scene  # noqa: E402
+from skinglow_blender.thickness.thickness_attribute import SUMMARY  # noqa: E402
+from skinglow_blender.ui import heat_map, main_panel, thickness_panel  # noqa: E402
+from window_steps import in_view, open_sidebar, run_steps, save_picture  # noqa: E402
+
+FOLDER = Path(facts_file).parent
+
+
+def tell(name, value):
+    with open(facts_file, "a") as facts:
+        facts.write(json.dumps({"fact": name, "value": value}) + "\n")
+
+
+def picture(name):
+    for area in bpy.context.window_manager.windows[0].screen.areas:
+        area.tag_redraw()
+    yield 0.7
+    with in_view():
+        save_picture(str(FOLDER / f"{name}.png"))
+
+
+def steps():
+    with in_view():
+        head = build_scene()
+        head.skinglow.unit_mm = 60.0
+        sb.make_skin(head, mode="physical")
+        bpy.ops.view3d.view_selected()
+        bpy.context.space_data.overlay.show_extras = False
+    tell("summary", list(head.data[SUMMARY])[:5])
+    yield 0.5
+    yield from open_sidebar("Skinglow", bpy.types.SKINGLOW_PT_sidebar)
+    yield from picture("plain")
+    bpy.context.window_manager.skinglow_heat_map = True
+    yield from picture("heat_map")
+    tell("kept between redraws", [len(heat_map._batches), id(heat_map._batches["Head"][1])])
+    yield from picture("heat_map")
+    tell("after a redraw", [len(heat_map._batches), id(heat_map._batches["Head"][1])])
+    for vertex in head.data.vertices:
+        vertex.co.x *= 1.5
+    head.data.update()
+    yield from picture("reshaped")
+    head.select_set(False)
+    bpy.context.view_layer.objects.active = None
+    yield from picture("nothing_selected")
+    head.select_set(True)
+    bpy.context.view_layer.objects.active = head
+    bpy.context.window_manager.skinglow_heat_map = False
+    yield from picture("off")
+    tell("off", [len(heat_map._batches), len(heat_map._handles)])
+    bpy.context.window_manager.skinglow_heat_map = True
+    sb.unregister()
+    tell("removed", [len(heat_map._handles), hasattr(bpy.types.WindowManager, "skinglow_heat_map")])
+    yield from picture("removed")
+
+
+# Only the thickness, and open.
+SHOWN = (thickness_panel.SKINGLOW_PT_sidebar_thickness, thickness_panel.SKINGLOW_PT_sidebar_thickness_image)
+for part in main_panel.CLASSES:
+    if part is not main_panel.SKINGLOW_PT_sidebar:
+        part.bl_options = set() if part in SHOWN else {"DEFAULT_CLOSED"}
+sb.register()
+run_steps(steps)
