@@ -71,10 +71,12 @@ def mask_groups(obj: bpy.types.Object) -> set[str]:
 
 
 def store_masks(obj: bpy.types.Object) -> None:
-    """Copies the weights of the vertex groups by which an object is masked to attributes, if they changed."""
-    mesh, names = obj.data, mask_groups(obj)
+    """Copies the weights of the vertex groups by which an object's mesh is masked to attributes, if they changed."""
+    mesh = obj.data
     if mesh.library is not None or obj.mode == "EDIT":
         return
+    # Other objects may show the mesh with other materials.
+    names = {name for o in bpy.data.objects if o.data == mesh and o.skinglow.enabled for name in mask_groups(o)}
     for attribute in [a for a in mesh.attributes if a.name.startswith(ATTRIBUTE_PREFIX)]:
         if attribute.name.removeprefix(ATTRIBUTE_PREFIX) not in names & set(obj.vertex_groups.keys()):
             mesh.attributes.remove(attribute)

@@ -98,6 +98,21 @@ def check_two_objects_on_one_material(work):
     np.testing.assert_allclose(shown / shown.sum(), RAMP[::-1] / RAMP.sum(), rtol=2e-3)
 
 
+def check_two_objects_on_one_mesh(work):
+    """With materials of their own, of which one is masked: making the other a skin again takes no mask away."""
+    obj = skin_scene()
+    before = picture(work)
+    painted(obj)
+    other = bpy.data.objects.new("Other", obj.data)
+    bpy.context.scene.collection.objects.link(other)
+    other.hide_render = True
+    other.material_slots[0].link = "OBJECT"
+    other.material_slots[0].material = material_of(obj).copy()
+    material_of(obj).skinglow.mask, material_of(obj).skinglow.mask_group = "VERTEX_GROUP", "Ears"
+    sb.make_skin(other, thickness=[2.0] * 4, mode="physical")
+    np.testing.assert_allclose(across(before, work), RAMP, rtol=2e-3)
+
+
 def check_image(work):
     obj = skin_scene()
     before = picture(work)
