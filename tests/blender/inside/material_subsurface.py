@@ -4,11 +4,12 @@ import bpy
 import numpy as np
 import skinglow_blender as sb
 from skinglow_blender import blender_version
-from skinglow_blender.show.subsurface import FADE_PROPERTY, light_shown_by, show_light_by
+from skinglow_blender.show.subsurface import FADE_GROUP, FADE_PROPERTY, light_shown_by, show_light_by
 
 from inside.bad_input import refused
 from inside.material_sockets import connect, node_of, picture
 from inside.scenes import add_light, camera_above, depsgraph, patch
+from inside.undo_and_polls import do_undo_redo
 
 
 def skin(thickness=(1.0,) * 4, amount=0.8):
@@ -207,3 +208,32 @@ def check_batch_and_repair_do_not_mind(work):
     assert hints(obj)
     assert len(sb.render_batch(work / "batch", frames=[1]).rendered) == 1
     assert bpy.ops.skinglow.repair() == {"FINISHED"}
+
+
+def check_undo_and_redo(_work):
+    skin()
+    depsgraph()
+
+    def shown_by():
+        return light_shown_by(bpy.data.materials["Skin"]), len(fades()), bpy.data.node_groups.find(FADE_GROUP) >= 0
+
+    def at_first():
+        assert shown_by() == ("BOTH", 0, False), shown_by()
+
+    def by_skinglow():
+        assert shown_by() == ("SKINGLOW", 1, True), shown_by()
+
+    def by_subsurface():
+        assert shown_by() == ("SUBSURFACE", 0, False), shown_by()
+
+    do_undo_redo(bpy.ops.skinglow.show_light_by, at_first, by_skinglow, shown_by="SKINGLOW")
+    do_undo_redo(bpy.ops.skinglow.show_light_by, at_first, by_subsurface, shown_by="SUBSURFACE")
+
+
+def check_why_the_button_is_gray(_work):
+    """Without a skin, and with one that has no subsurface, in words."""
+    patch()
+    refused(RuntimeError, "Select a skin", bpy.ops.skinglow.show_light_by, shown_by="SKINGLOW")
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    skin(amount=0.0)
+    refused(RuntimeError, "no subsurface", bpy.ops.skinglow.show_light_by, shown_by="SKINGLOW")
