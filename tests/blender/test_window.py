@@ -101,9 +101,14 @@ def test_a_fault_stands_in_the_panel(window: Window) -> None:
     assert "no image is selected" in fault
 
 
+def test_subsurface_that_counts_twice_stands_in_the_panel(window: Window) -> None:
+    hint, *others = window["hints"]
+    assert "scatters light below its surface" in hint and not others
+
+
 def test_the_pictures_show_something(window: Window) -> None:
     pictures = {p.stem: matplotlib.image.imread(p)[:, :, :3] for p in window.folder.glob("*.png")}
-    assert set(pictures) == {"panel", "panel_before", "panel_measuring"}
+    assert set(pictures) == {"panel", "panel_before", "panel_measuring", "panel_material"}
     for name, picture in pictures.items():
         assert picture.std() > 0.05, f"{name}.png is blank"
         assert len(np.unique((picture * 255).astype(np.uint8).reshape(-1, 3), axis=0)) > 500, f"{name}.png is blank"

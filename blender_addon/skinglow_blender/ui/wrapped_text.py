@@ -6,8 +6,8 @@ import textwrap
 import blf
 import bpy
 
-#: Widths of an icon and of a panel's margins, in units of Blender's interface scale.
-ICON, EDGES = 22.0, 46.0
+#: Widths of an icon and of the margins of a panel and a box in it, in units of Blender's interface scale.
+ICON, EDGES = 22.0, 66.0
 MIN_CHARACTERS = 16
 
 

@@ -15,6 +15,8 @@ import bpy  # noqa: E402
 import numpy as np  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
 from panel_scene import build_scene  # noqa: E402
+from skinglow_blender import blender_version  # noqa: E402
+from skinglow_blender.commands.health import quick_faults  # noqa: E402
 from skinglow_blender.session import SESSION  # noqa: E402
 from skinglow_blender.thickness import thickness_attribute  # noqa: E402
 from skinglow_blender.ui import light_list, main_panel  # noqa: E402
@@ -85,6 +87,7 @@ def steps():
     yield from a_measuring_to_its_end()
     yield from a_moved_light()
     yield from every_part_of_the_panel()
+    yield from every_part_of_the_material()
     with in_view():
         save_picture(picture)
 
@@ -195,6 +198,27 @@ def every_part_of_the_panel():
     bpy.context.view_layer.objects.active = head()
     redraw()
     yield 1.0
+
+
+def every_part_of_the_material():
+    obj = head()
+    obj.data.materials.append(bpy.data.materials.new("Eyes"))
+    skin = obj.material_slots[0].material
+    obj.vertex_groups.new(name="Ears")
+    principled = next(n for n in skin.node_tree.nodes if n.bl_idname == "ShaderNodeBsdfPrincipled")
+    blender_version.socket_named(principled.inputs, "Subsurface Weight", "Subsurface").default_value = 0.5
+    area_of("PROPERTIES").spaces.active.context = "MATERIAL"
+    for mask in ("VERTEX_GROUP", "IMAGE", "NONE"):
+        skin.skinglow.mask, skin.skinglow.mask_group = mask, "Ears"
+        redraw()
+        yield 0.5
+    with in_view():
+        save_picture(picture.replace(".png", "_material.png"))
+    tell("hints", [fault.what for fault in quick_faults(obj) if fault.is_hint])
+    for i in (1, 0):
+        obj.active_material_index = i
+        redraw()
+        yield 0.5
 
 
 # Closed parts are not drawn.
