@@ -20,7 +20,7 @@ from .commands.skin import SkinState
 from .errors import SkinError
 from .live import handlers
 from .live.live_update import Rebuilt
-from .show import material_settings
+from .show import material_settings, subsurface
 from .ui import (
     freeze_operators,
     light_list,
@@ -63,6 +63,7 @@ __all__ = [
     "register",
     "remove_skin",
     "render_batch",
+    "show_light_by",
     "unfreeze",
     "unregister",
     "update",
@@ -128,5 +129,6 @@ export_povray = _registering(povray_export.export_povray)
 freeze = _registering(freezing.freeze)
 unfreeze = _registering(freezing.unfreeze)
 remove_skin = _registering(skin.remove_skin)
+show_light_by = _registering(subsurface.show_light_by)
 render_batch = _registering(batch.render_batch)
 batch_main = _registering(batch.main)

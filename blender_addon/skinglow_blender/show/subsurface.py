@@ -46,7 +46,15 @@ def has_subsurface(material: bpy.types.Material) -> bool:
 
 
 def show_light_by(material: bpy.types.Material, shown_by: str) -> None:
-    """Gives the light that comes through to 'SKINGLOW' or 'SUBSURFACE'. Raises SkinError if that cannot be done."""
+    """Gives the light that comes through a material of a skin to "skinglow" or to its own "subsurface".
+
+    Raises SkinError if that cannot be done, ValueError for another name.
+    """
+    shown_by = shown_by.upper()
+    if shown_by not in ("SKINGLOW", "SUBSURFACE"):
+        raise ValueError(
+            f'show_light_by: shown_by = {shown_by!r} is not allowed: it has to be "skinglow" or "subsurface"'
+        )
     nodes = skin_nodes(material)
     sockets = list(dict.fromkeys(socket for node in nodes for socket in _scattering(node)))
     for owner in dict.fromkeys([material, *(socket.id_data for socket in sockets)]):

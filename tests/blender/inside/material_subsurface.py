@@ -3,8 +3,8 @@
 import bpy
 import numpy as np
 import skinglow_blender as sb
-from skinglow_blender import blender_version
-from skinglow_blender.show.subsurface import FADE_GROUP, FADE_PROPERTY, light_shown_by, show_light_by
+from skinglow_blender import blender_version, show_light_by
+from skinglow_blender.show.subsurface import FADE_GROUP, FADE_PROPERTY, light_shown_by
 
 from inside.bad_input import refused
 from inside.material_sockets import connect, node_of, picture
@@ -178,6 +178,7 @@ def check_connected_amount_stays_connected(_work):
 def check_what_cannot_be_handed_over_is_refused(_work):
     """A group that others use too, an animated amount, Light in use: in words, and nothing is changed."""
     obj = skin()
+    refused(ValueError, "'NOBODY' is not allowed", show_light_by, material_of(obj), "nobody")
     out = material_of(obj).node_tree.nodes.new("ShaderNodeOutputAOV")
     link = material_of(obj).node_tree.links.new(node_of(obj).outputs["Light"], out.inputs["Color"])
     refused(sb.SkinError, "Light of the Skinglow node", show_light_by, material_of(obj), "SUBSURFACE")
