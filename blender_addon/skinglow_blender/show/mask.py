@@ -31,16 +31,20 @@ def fill_mask(material: bpy.types.Material) -> None:
         source = _source(node, kind)
         if kind == "ShaderNodeAttribute":
             source.attribute_type, source.attribute_name = "GEOMETRY", ATTRIBUTE_PREFIX + settings.mask_group
-            material.node_tree.links.new(source.outputs["Fac"], node.inputs["Mask"])
+            node.id_data.links.new(source.outputs["Fac"], node.inputs["Mask"])
         elif kind == "ShaderNodeTexImage":
             source.image = settings.mask_image
-            material.node_tree.links.new(source.outputs["Color"], node.inputs["Mask"])
+            node.id_data.links.new(source.outputs["Color"], node.inputs["Mask"])
 
 
 def masked_by_artist(node: bpy.types.Node) -> bool:
     """Whether something else than the settings is connected to the Mask of a skin's node."""
     socket = skin_input(node, "Mask")
-    return socket is None or (socket.is_linked and MASK_PROPERTY not in socket.links[0].from_node)
+    return (
+        socket is None
+        or node.id_data.library is not None
+        or (socket.is_linked and MASK_PROPERTY not in socket.links[0].from_node)
+    )
 
 
 def remove_mask_nodes(material: bpy.types.Material) -> None:

@@ -82,9 +82,23 @@ def add_to_materials(obj: bpy.types.Object, group: bpy.types.NodeTree | None) ->
         node = skin_node(material)
         if node is None:
             insert(material, group)
-        elif node.node_tree != group and material.library is None:
+        elif node.node_tree != group and node.id_data.library is None:
             replace_group(node, group)
+        _stop_sampling(material)
     return group
+
+
+def _stop_sampling(material: bpy.types.Material) -> None:
+    """Keeps Cycles from sampling each face of the skin as a light, and remembers how it did.
+
+    It would spend most of its samples on them: three times the render time, for light too faint to need that.
+    """
+    nodes = [node for node in skin_nodes(material) if node.id_data.library is None]
+    sampling = blender_version.emission_sampling(material)
+    if material.library is None and sampling is not None and not any(SAMPLING_PROPERTY in node for node in nodes):
+        blender_version.set_emission_sampling(material, blender_version.NO_EMISSION_SAMPLING)
+        for node in nodes:
+            node[SAMPLING_PROPERTY] = sampling
 
 
 def _check_local(obj: bpy.types.Object, materials: list[bpy.types.Material]) -> None:
@@ -97,11 +111,19 @@ def _check_local(obj: bpy.types.Object, materials: list[bpy.types.Material]) -> 
 
 
 def skin_nodes(material: bpy.types.Material) -> list[bpy.types.Node]:
-    """The material's skin group nodes: one for each of its outputs."""
-    tree = blender_version.shader_tree(material)
-    if tree is None:
-        return []
-    return [n for n in tree.nodes if n.bl_idname == "ShaderNodeGroup" and is_skin_group(n.node_tree)]
+    """The material's skin group nodes: one for each of its outputs, also in groups of the artist."""
+    return _skin_nodes_in(blender_version.shader_tree(material), set())
+
+
+def _skin_nodes_in(tree: bpy.types.NodeTree | None, seen: set[bpy.types.NodeTree]) -> list[bpy.types.Node]:
+    found: list[bpy.types.Node] = []
+    if tree is None or tree in seen:
+        return found
+    seen.add(tree)
+    for node in tree.nodes:
+        if node.bl_idname == "ShaderNodeGroup":
+            found += [node] if is_skin_group(node.node_tree) else _skin_nodes_in(node.node_tree, seen)
+    return found
 
 
 def skin_node(material: bpy.types.Material) -> bpy.types.Node | None:
@@ -122,8 +144,10 @@ def gives_thickness(material: bpy.types.Material) -> bool:
 
 def remove_from_material(material: bpy.types.Material) -> None:
     """Removes the group and reconnects the surface to the output."""
-    tree = blender_version.shader_tree(material)
     for node in skin_nodes(material):
+        tree = node.id_data
+        if tree.library is not None:
+            continue
         surface = node.inputs["Surface"]
         before = surface.links[0].from_socket if surface.is_linked else None
         after = [link.to_socket for link in node.outputs["Shader"].links]
@@ -137,10 +161,6 @@ def remove_from_material(material: bpy.types.Material) -> None:
 
 def insert(material: bpy.types.Material, group: bpy.types.NodeTree) -> None:
     """Inserts the group between a material's surface and its outputs."""
-    # Otherwise Cycles samples each face of the skin as a light and spends most of its samples on them: three times the
-    # render time, for light too faint to need direct sampling.
-    sampling = blender_version.emission_sampling(material)
-    blender_version.set_emission_sampling(material, blender_version.NO_EMISSION_SAMPLING)
     plain = blender_version.shader_tree(material) is None
     tree = blender_version.ensure_shader_tree(material)
     if plain:
@@ -152,13 +172,12 @@ def insert(material: bpy.types.Material, group: bpy.types.NodeTree) -> None:
         surface = output.inputs["Surface"]
         node = tree.nodes.new("ShaderNodeGroup")
         node.node_tree = group
-        if sampling is not None:
-            node[SAMPLING_PROPERTY] = sampling
         node.location = (output.location.x, output.location.y)
         output.location.x += 200
         if surface.is_linked:
             tree.links.new(surface.links[0].from_socket, node.inputs["Surface"])
         tree.links.new(node.outputs["Shader"], surface)
+    _stop_sampling(material)
 
 
 def _plain_skin(obj: bpy.types.Object) -> bpy.types.Material:

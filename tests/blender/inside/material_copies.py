@@ -3,6 +3,7 @@
 import bpy
 import numpy as np
 import skinglow_blender as sb
+from skinglow_blender import blender_version
 from skinglow_blender.show.lut_image import images_of, is_skin_group, skin_groups
 from skinglow_blender.show.skin_material import skin_node
 
@@ -159,9 +160,13 @@ def check_group_as_asset(work):
     assert (node.inputs["Mask"].default_value, node.inputs["Thickness"].default_value) == (1.0, -1.0)
     tree.links.new(out.inputs["Surface"].links[0].from_socket, node.inputs["Surface"])
     tree.links.new(node.outputs["Shader"], out.inputs["Surface"])
+    sampling = blender_version.emission_sampling(material)
     obj = second_skin(material)
     assert skin_node(material) == node and obj.skinglow.group == group
+    assert blender_version.emission_sampling(material) == blender_version.NO_EMISSION_SAMPLING != sampling
     np.testing.assert_allclose(picture(work), thick, rtol=1e-5)
+    sb.remove_skin(obj)
+    assert blender_version.emission_sampling(material) == sampling
 
 
 def check_appended_object(work):
@@ -202,3 +207,38 @@ def check_frames_of_a_copied_group(work):
     assert shown[0].max() > 1e-3
     for factor, each in zip((1.0, 2.0, 3.0), shown, strict=True):
         np.testing.assert_allclose(each, factor * shown[0], rtol=1e-5)
+
+
+def check_node_in_a_group_of_the_artist(work):
+    """Packed into a group with the rest of the shader: it is found there, masked there, and removed from there."""
+    obj = skin_scene()
+    before = picture(work)
+    material, node = material_of(obj), node_of(obj)
+    tree, group = material.node_tree, obj.skinglow.group
+    packed = bpy.data.node_groups.new("Shader", "ShaderNodeTree")
+    blender_version.new_group_socket(packed, "Shader", "Shader", "OUTPUT", "")
+    emission, inner = packed.nodes.new("ShaderNodeEmission"), packed.nodes.new("ShaderNodeGroup")
+    emission.inputs["Strength"].default_value, inner.node_tree = 0.0, group
+    packed.links.new(emission.outputs[0], inner.inputs["Surface"])
+    packed.links.new(inner.outputs["Shader"], packed.nodes.new("NodeGroupOutput").inputs[0])
+    tree.nodes.remove(node)
+    outer = tree.nodes.new("ShaderNodeGroup")
+    outer.node_tree = packed
+    out = next(n for n in tree.nodes if n.bl_idname == "ShaderNodeOutputMaterial")
+    tree.links.new(outer.outputs[0], out.inputs["Surface"])
+    depsgraph()
+    assert sb.health(obj) == []
+    sb.make_skin(obj, thickness=[2.0] * 4)
+    assert [n.bl_idname for n in tree.nodes].count("ShaderNodeGroup") == 1
+    np.testing.assert_allclose(picture(work), before, rtol=1e-6)
+    other = patch("Second")
+    other.data.materials.append(material)
+    sb.make_skin(other, thickness=[4.0] * 4, mode="physical")
+    require_separate(obj, other)
+    obj.vertex_groups.new(name="None").add([0, 1, 2, 3], 0.0, "REPLACE")
+    material.skinglow.mask, material.skinglow.mask_group = "VERTEX_GROUP", "None"
+    assert inner.inputs["Mask"].is_linked and alone(obj, work).max() == 0.0
+    for each in (obj, other):
+        sb.remove_skin(each)
+    assert [n.bl_idname for n in packed.nodes].count("ShaderNodeGroup") == 0
+    assert [n.bl_idname for n in packed.nodes].count("ShaderNodeAttribute") == 0
