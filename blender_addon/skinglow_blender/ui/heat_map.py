@@ -62,7 +62,7 @@ def draw_skins() -> None:
         return
     skins = shown_skins(context)
     limit = limit_mm(skins)
-    depsgraph = context.evaluated_depsgraph_get()
+    depsgraph = context.view_layer.depsgraph
     shader = _shader()
     gpu.state.depth_test_set("LESS_EQUAL")
     gpu.state.depth_mask_set(True)

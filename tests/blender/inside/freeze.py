@@ -31,7 +31,7 @@ def ball(name, location, material=None):
 
 
 def moving_scene(work, **settings):
-    """Two skins of one material and one of its own; lights, strength and scale are keyed, one light is for renders."""
+    """Two skins of one material and one of its own; lights, strengths and scale are keyed, one light is for renders."""
     key, final = add_light("Key", energy=40.0), add_light("Final", "SPOT", (0.2, 0.4, 1.0), 90.0, (2.0, 2.0, 1.0))
     final.hide_viewport = True
     skins = [ball("A", (-1.0, 0.0, 0.0)), ball("C", (0.0, -1.5, 0.0))]
@@ -39,7 +39,10 @@ def moving_scene(work, **settings):
     for obj in skins:
         x = np.array([v.co.x for v in obj.data.vertices])
         sb.make_skin(obj, thickness=4.0 + 4.0 * x, unit_mm=10.0, **settings)
+    node = next(n for n in skins[2].active_material.node_tree.nodes if n.bl_idname == "ShaderNodeGroup")
     for frame in range(FIRST - 1, LAST + 2):
+        node.inputs["Strength"].default_value = 0.5 + 0.3 * frame
+        node.inputs["Strength"].keyframe_insert("default_value", frame=frame)
         key.location, key.data.color = (0.5 * frame - 2.0, 0.3, 1.5), (1.0 / frame, 0.1 * frame, 0.5)
         key.keyframe_insert("location", frame=frame)
         key.data.keyframe_insert("color", frame=frame)
