@@ -32,12 +32,13 @@ def changes_of(depsgraph: bpy.types.Depsgraph) -> Changes:
     """
     skins, materials, images, reshaped, number = depsgraph.scene.skinglow.occlusion, False, set(), [], 0
     for number, update in enumerate(depsgraph.updates, 1):  # noqa: B007  the number of updates
-        skins = skins or _may_change_skins(update.id)
+        changed = update.id
+        skins = skins or _may_change_skins(changed)
         materials = materials or may_change_groups(update)
-        if isinstance(update.id, bpy.types.Image):
-            images.add(update.id.original.name_full)
-        elif update.is_updated_geometry and isinstance(update.id, bpy.types.Object) and update.id.skinglow.enabled:
-            reshaped.append(update.id.original)
+        if isinstance(changed, bpy.types.Image):
+            images.add(changed.original.name_full)
+        elif isinstance(changed, bpy.types.Object) and changed.skinglow.enabled and update.is_updated_geometry:
+            reshaped.append(changed.original)
     # Blender 3.4 reports changed images without saying which.
     return Changes(skins or number == 0, materials, frozenset(images), tuple(reshaped))
 
