@@ -10,6 +10,15 @@ from .skin_settings import LIGHTINGS, MODES, PRESETS
 PACKAGE = __package__
 
 
+#: Whether skins follow the lights, as last set: looking it up in the preferences at each edit would take 20 us.
+_follows = True
+
+
+def _live_changed(chosen: "SkinglowPreferences", _context: bpy.types.Context) -> None:
+    global _follows
+    _follows = chosen.live
+
+
 class SkinglowPreferences(bpy.types.AddonPreferences):
     """Shown in Edit > Preferences > Add-ons."""
 
@@ -18,6 +27,7 @@ class SkinglowPreferences(bpy.types.AddonPreferences):
     live: BoolProperty(
         name="Follow the Lights",
         default=True,
+        update=_live_changed,
         description="Update skins while lights are edited; if disabled, only Update Now, frame changes and renders do",
     )
     mode: EnumProperty(name="Mode", items=MODES, default="PHYSICAL", description="Mode of new skins")
@@ -49,8 +59,7 @@ def preferences() -> SkinglowPreferences | None:
 
 def follows_lights() -> bool:
     """Whether handlers update skins."""
-    chosen = preferences()
-    return chosen is None or chosen.live
+    return _follows
 
 
 def of_new_skins() -> dict[str, object]:
@@ -64,7 +73,10 @@ def of_new_skins() -> dict[str, object]:
 
 def register() -> None:
     """Adds the preferences."""
+    global _follows
     bpy.utils.register_class(SkinglowPreferences)
+    chosen = preferences()
+    _follows = chosen is None or chosen.live
 
 
 def unregister() -> None:

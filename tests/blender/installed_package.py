@@ -50,6 +50,7 @@ def use():
     found["functions"] = [name for name in names if not callable(getattr(sb, name))]
     found["visible"] = follow_a_blocker(sb)
     found |= follow_a_light(sg, sb)
+    found["preferences"] = use_preferences(sb, found["enabled"])
     found["refused"] = refusals(sg)
     found["rays"] = sys.modules["skinglow._rays"].__file__
     found["render"] = render()
@@ -113,6 +114,23 @@ def shown_by(sb, obj, light):
     depsgraph = bpy.context.evaluated_depsgraph_get()
     (row,) = (row for row in sb.light_report(obj, depsgraph) if row["name"] == light.name)
     return [row["visible"], float(sb.lut(obj, depsgraph).sum())]
+
+
+def use_preferences(sb, addon):
+    """The mode of a new skin by the preferences, and whether it followed a light with *Follow the Lights* off and on."""
+    clear_scene()
+    preferences = bpy.context.preferences.addons[addon].preferences
+    preferences.mode = "PAPER"
+    obj, light = add_ball(), add_light(0.02)
+    bpy.ops.skinglow.make()
+    followed = []
+    for preferences.live in (False, True):
+        before = sb.lut(obj, bpy.context.evaluated_depsgraph_get())
+        light.location.x += 0.5
+        bpy.context.view_layer.update()
+        followed.append(bool((sb.lut(obj, bpy.context.evaluated_depsgraph_get()) != before).any()))
+    preferences.property_unset("mode")
+    return [obj.skinglow.mode, *followed]
 
 
 def follow_a_light(sg, sb):

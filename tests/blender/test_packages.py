@@ -185,6 +185,7 @@ def test_installed_by_blender_and_used_without_the_project(host: Host, tmp_path:
     np.testing.assert_allclose(found["thickness_mm"], 20.0, rtol=0.03)
     np.testing.assert_allclose(found["shown"], found["expected"], rtol=1e-6)
     assert found["shown"][0] != found["shown"][1]
+    assert found["preferences"] == ["PAPER", False, True]
     assert found["refused"].keys() == REFUSALS.keys()
     for case, (kind, word) in REFUSALS.items():
         told = found["refused"][case]
