@@ -117,7 +117,7 @@ def shown_by(sb, obj, light):
 
 
 def use_preferences(sb, addon):
-    """The mode of a new skin by the preferences, and whether it followed a light with *Follow the Lights* off and on."""
+    """The mode of a new skin by the preferences, and whether it followed a light with *live* off and on."""
     clear_scene()
     preferences = bpy.context.preferences.addons[addon].preferences
     preferences.mode = "PAPER"
