@@ -37,7 +37,7 @@ from ..show.frozen import (
 from ..show.group_sockets import replace_group
 from ..show.lut_image import ensure_images, group_layout, shown_image
 from ..show.skin_group import build_plain, new_group
-from ..show.skin_material import skin_node, skin_nodes
+from ..show.skin_material import skin_nodes
 from ..show.surface_group import build_surface
 from ..table.occlusion import with_visible_fractions
 from .skin import skin_settings_of
@@ -285,13 +285,14 @@ def _sharing_materials(wanted: list[bpy.types.Object]) -> list[list[bpy.types.Ob
     for obj in wanted:
         if obj in taken:
             continue
-        part, materials = [obj], _skin_materials(obj)
+        # By node: materials may share one in a group of the artist.
+        part, nodes = [obj], _nodes_of(obj)
         grown = True
         while grown:
-            more = [o for o in (*wanted, *others) if o not in part and _skin_materials(o) & materials]
+            more = [o for o in (*wanted, *others) if o not in part and _nodes_of(o) & nodes]
             for other in more:
                 _check(other)
-                materials |= _skin_materials(other)
+                nodes |= _nodes_of(other)
             part += more
             grown = bool(more)
         taken.update(part)
@@ -299,9 +300,10 @@ def _sharing_materials(wanted: list[bpy.types.Object]) -> list[list[bpy.types.Ob
     return parts
 
 
-def _skin_materials(obj: bpy.types.Object) -> set[bpy.types.Material]:
+def _nodes_of(obj: bpy.types.Object) -> set[bpy.types.Node]:
+    """The skin nodes of an object's materials."""
     materials = {slot.material for slot in obj.material_slots} - {None}
-    return {material for material in materials if skin_node(material) is not None}
+    return {node for material in materials for node in skin_nodes(material)}
 
 
 def _check(obj: bpy.types.Object) -> None:
@@ -309,9 +311,10 @@ def _check(obj: bpy.types.Object) -> None:
     group = skin_settings_of(obj).group
     if is_frozen(group):
         raise SkinError(f"'{obj.name}' is frozen already: unfreeze it first")
-    if not _skin_materials(obj):
+    nodes = _nodes_of(obj)
+    if not nodes:
         raise SkinError(f"'{obj.name}': none of its materials has the Skinglow node: press Repair, or call make_skin")
-    for owner in (obj, group, *_skin_materials(obj)):
+    for owner in (obj, group, *(node.id_data for node in nodes)):
         if owner.library is not None:
             raise SkinError(f"'{obj.name}' belongs to {owner.library.filepath}: freeze it there, or make it local")
 
@@ -408,9 +411,8 @@ def _group_of_its_own(part: _Part) -> bpy.types.NodeTree:
     ensure_images(group, part.width, part.rows)
     if part.layout is not None:
         build_surface(group, part.layout)
-    for material in set().union(*map(_skin_materials, part.skins)):
-        for node in skin_nodes(material):
-            replace_group(node, group)
+    for node in set().union(*map(_nodes_of, part.skins)):
+        replace_group(node, group)
     for obj in part.skins:
         obj.skinglow.group = group
     return group

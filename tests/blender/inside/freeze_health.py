@@ -3,6 +3,7 @@
 import bpy
 import numpy as np
 import skinglow_blender as sb
+from skinglow_blender.blender_version import new_group_socket
 from skinglow_blender.commands.freezing import frozen_state
 from skinglow_blender.commands.health import quick_faults
 from skinglow_blender.read.scene_reading import ROW_PROPERTY
@@ -141,3 +142,60 @@ def check_deleted_sequence_is_repaired(work):
     assert bpy.ops.skinglow.repair() == {"FINISHED"}
     assert sb.health(obj) == [] and frozen_state(obj) is None
     np.testing.assert_array_equal(sb.lut(obj, depsgraph()), before)
+
+
+def check_materials_that_share_a_group_of_the_artist(work):
+    """Their skins have one node, and are frozen together; a skin of a material of its own stays live."""
+    obj, _key = small_scene(work / "artist")
+    free = patch("Free", location=(0.0, 3.0, 0.0), material=black_material("Free"))
+    sb.make_skin(free, thickness=[0.0] * 4, mode="paper")
+    skin_group = obj.skinglow.group
+    shared = bpy.data.node_groups.new("Shared", "ShaderNodeTree")
+    new_group_socket(shared, "Shader", "Shader", "OUTPUT", "")
+    inner, out = shared.nodes.new("ShaderNodeGroup"), shared.nodes.new("NodeGroupOutput")
+    inner.node_tree = skin_group
+    shared.links.new(inner.outputs["Shader"], out.inputs[0])
+    names = []
+    for i in range(2):
+        material = black_material(f"Shared {i}")
+        tree = material.node_tree
+        node = tree.nodes.new("ShaderNodeGroup")
+        node.node_tree = shared
+        output = next(n for n in tree.nodes if n.bl_idname == "ShaderNodeOutputMaterial")
+        tree.links.new(node.outputs[0], output.inputs["Surface"])
+        other = patch(f"Sharing {i}", location=(3.0 * i, -3.0, 0.0), material=material)
+        sb.make_skin(other, thickness=[0.0] * 4, mode="paper")
+        names.append(other.name)
+    (frozen,) = sb.freeze([bpy.data.objects[names[0]]])
+    assert sorted(frozen.skins) == names
+    assert [frozen_state(bpy.data.objects[name]) is not None for name in (*names, "Free", "Patch")] == [True] * 2 + [
+        False
+    ] * 2
+    assert all(sb.health(bpy.data.objects[name]) == [] for name in (*names, "Free", "Patch"))
+    assert sorted(sb.unfreeze()) == names
+
+
+def check_what_belongs_to_a_library_is_frozen_there(work):
+    """Linked objects are refused; one that is frozen shows its frames where it is linked, and is not thawed there."""
+    small_scene(work / "library")
+    for frozen in (False, True):
+        if frozen:
+            bpy.ops.wm.open_mainfile(filepath=str(work / "library" / "small.blend"))
+            sb.freeze()
+            bpy.ops.wm.save_mainfile()
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        with bpy.data.libraries.load(str(work / "library" / "small.blend"), link=True) as (_source, target):
+            target.objects = ["Patch", "Camera"]
+        for obj in target.objects:
+            bpy.context.scene.collection.objects.link(obj)
+        linked = target.objects[0]
+        bpy.context.scene.camera = target.objects[1]
+        bpy.ops.wm.save_as_mainfile(filepath=str(work / "library" / f"user_{frozen}.blend"))
+        linked = next(obj for obj in bpy.data.objects if obj.name == "Patch")
+        depsgraph()
+        if frozen:
+            assert frozen_state(linked).folder == work / "library" / "skinglow_frozen" / "Patch"
+            refused(sb.SkinError, "unfreeze it there", sb.unfreeze)
+            assert sb.lut(linked, depsgraph()).max() > 0.0
+        else:
+            refused(sb.SkinError, "belongs to", sb.freeze)
