@@ -8,7 +8,6 @@
 #include "cli/commands.h"
 #include "cli/output_text.h"
 #include "cli/rig_options.h"
-#include "cli/skin_options.h"
 #include "cli/table_options.h"
 #include "files/atomic_file.h"
 #include "files/lut_file.h"

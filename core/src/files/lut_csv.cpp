@@ -4,7 +4,7 @@
 #include <string>
 
 #include "files/atomic_file.h"
-#include "files/lut_format.h"
+#include "files/lut_file.h"
 #include "numerics/argument_check.h"
 #include "rig_files/file_error.h"
 #include "rig_files/parse_number.h"

@@ -4,8 +4,8 @@
 #include <glm/common.hpp>
 
 #include "files/atomic_file.h"
-#include "files/image_output.h"
-#include "files/lut_format.h"
+#include "files/image_io.h"
+#include "files/lut_file.h"
 #include "numerics/argument_check.h"
 #include "rig_files/file_error.h"
 
@@ -38,11 +38,6 @@ std::size_t count_clamped(const LutTable& table) {
     return static_cast<std::size_t>(
         std::count_if(table.colors.begin(), table.colors.end(),
                       [](const glm::dvec3& color) { return color != glm::clamp(color, 0.0, 1.0); }));
-}
-
-void check_side(const char* name, int value) {
-    constexpr int longest = 16384;
-    if (value < 1 || value > longest) refuse_argument(name, std::to_string(value), "1 to 16384 pixels");
 }
 
 /// The table at 0 (first entry) to 1 (last).
@@ -89,8 +84,8 @@ LutWriteReport write_lut_png(const std::filesystem::path& path, const LutTable& 
 
 LutWriteReport write_lut_preview(const std::filesystem::path& path, const LutTable& table, int width,
                                  int height) {
-    check_side("preview width", width);
-    check_side("preview height", height);
+    require_between("preview width", width, 1, 16384, " pixels");
+    require_between("preview height", height, 1, 16384, " pixels");
     if (small_extension(path) != ".png") refuse_file(path, "cannot hold a preview", "name it .png");
     const LutAxis checked(table.colors.size(), table.record.max_thickness_mm);
     LutTable columns;

@@ -95,13 +95,9 @@ void validate(const PovrayLut& lut) {
                         "image: skinglow.inc computes modes existing and paper");
     }
     if (lut.mode == LutMode::existing) return;
-    if (lut.base.size() != lut.axis.size()) {
-        refuse_argument("base", std::to_string(lut.base.size()) + " entries",
-                        std::to_string(lut.axis.size()) + ", the axis's");
-    }
-    for (std::size_t i = 0; i < lut.base.size(); ++i) {
-        require_not_negative("base[" + std::to_string(i) + "]", lut.base[i]);
-    }
+    require_count("base", lut.base.size(), lut.axis.size(), "the axis's");
+    for (std::size_t i = 0; i < lut.base.size(); ++i)
+        require_not_negative(entry_name("base", i), lut.base[i]);
     require_finite("blood_weight", lut.blood_weight);
     require_finite("point", lut.point);
     validate(lut.coefficients);

@@ -7,7 +7,6 @@
 #define HWY_TARGET_INCLUDE "radiometry/irradiance_kernels.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-#include "radiometry/kernel_vectors-inl.h"
 #include "radiometry/rectangle_kernel-inl.h"
 // clang-format on
 

@@ -6,8 +6,6 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "radiometry/cap_irradiance.h"
-
 namespace skinglow::detail {
 namespace {
 

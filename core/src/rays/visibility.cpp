@@ -18,29 +18,8 @@ constexpr int max_samples = 4096;
 /// Relative error of the irradiance, which only weighs points against one another.
 constexpr double weight_tolerance = 1e-4;
 
-/// What is asked of one light at each point.
-struct Query {
-    const OccluderScene& scene;
-    std::vector<TriangleRange> excluded;
-    int samples;
-
-    bool sees(const glm::dvec3& point, const LightSample& ray) const {
-        return !scene.occluded(point, ray.direction, ray.distance, excluded);
-    }
-
-    /// Visible fraction of a light at a point where it has an effect.
-    /// @param normal  unit length
-    /// @param index   of the point, for its samples
-    double fraction(const PreparedLight& light, const glm::dvec3& point, const glm::dvec3& normal,
-                    std::size_t index) const {
-        return visible_fraction_at(light, point, normal, index, samples,
-                                   [&](const LightSample& ray) { return sees(point, ray); });
-    }
-};
-
 void validate(const VisibilityOptions& options) {
-    if (options.samples < 1 || options.samples > max_samples)
-        refuse_argument("samples", std::to_string(options.samples), "1 to " + std::to_string(max_samples));
+    require_between("samples", options.samples, 1, max_samples);
     if (options.threads < 0) refuse_argument("threads", std::to_string(options.threads), "0 (all) or more");
 }
 
@@ -67,7 +46,7 @@ VisibleFraction visible_fraction(const Occluders& occluders, const PreparedRig& 
     validate(options);
     require_surface(points, normals);
     const OccluderScene& scene = occluders.scene();
-    const Query query{scene, scene.triangles_of(options.excluded), options.samples};
+    const std::vector<TriangleRange> excluded = scene.triangles_of(options.excluded);
     const std::vector<RigLight>& lights = rig.data().prepared;
     const std::size_t columns = lights.size();
     VisibleFraction result{std::vector<double>(points.size() * columns, 1.0),
@@ -81,8 +60,12 @@ VisibleFraction visible_fraction(const Occluders& occluders, const PreparedRig& 
             if (!lights[k].shines || normals[p] == glm::dvec3(0.0)) continue;
             const glm::dvec3 normal = unit(normals[p]);
             irradiance[i] = lights[k].light.irradiance(points[p], normal, weight_tolerance);
-            if (irradiance[i] > 0.0)
-                result.at_points[i] = query.fraction(lights[k].light, points[p], normal, p);
+            if (!(irradiance[i] > 0.0)) continue;
+            const auto sees = [&](const LightSample& ray) {
+                return !scene.occluded(points[p], ray.direction, ray.distance, excluded);
+            };
+            result.at_points[i] =
+                visible_fraction_at(lights[k].light, points[p], normal, p, options.samples, sees);
         }
     };
     for_each_block(irradiance.size(), options.threads, work, {});

@@ -1,11 +1,9 @@
-#include <array>
 #include <string>
 #include <utility>
 
 #include "geometry/vector.h"
 #include "numerics/argument_check.h"
 #include "numerics/compensated_sum.h"
-#include "rig/light_tree.h"
 #include "rig/rig_data.h"
 
 namespace skinglow {
@@ -20,13 +18,6 @@ RigData::RigData(std::vector<Light> given) : lights(std::move(given)) {
     }
 }
 
-RigData::~RigData() = default;
-
-const LightTree& RigData::tree() const {
-    std::call_once(tree_made_, [this] { tree_ = std::make_unique<const LightTree>(prepared); });
-    return *tree_;
-}
-
 glm::dvec3 unit_normal(const glm::dvec3& normal) {
     require_finite("normal", normal);
     if (normal == glm::dvec3(0.0)) refuse_argument("normal", to_text(normal), "a vector of length above 0");
@@ -35,19 +26,10 @@ glm::dvec3 unit_normal(const glm::dvec3& normal) {
 
 }  // namespace detail
 
-std::string_view to_text(DropReason reason) {
-    constexpr std::array<std::string_view, 3> names = {"off", "unreachable", "negligible"};
-    return names.at(static_cast<std::size_t>(reason));
-}
-
 PreparedRig::PreparedRig(std::vector<Light> lights) : data_(std::make_shared<RigData>(std::move(lights))) {}
 
 const std::vector<Light>& PreparedRig::lights() const {
     return data_->lights;
-}
-
-CullingResult PreparedRig::cull(const Box& box, double tolerance) const {
-    return data_->tree().cull(box, tolerance);
 }
 
 namespace {

@@ -17,10 +17,6 @@ class LightTree;
 
 struct RigData {
     explicit RigData(std::vector<Light> given);
-    RigData(const RigData&) = delete;
-    RigData& operator=(const RigData&) = delete;
-    ~RigData();
-
     /// Made by the first call.
     const LightTree& tree() const;
 
@@ -29,7 +25,7 @@ struct RigData {
 
   private:
     mutable std::once_flag tree_made_;
-    mutable std::unique_ptr<const LightTree> tree_;
+    mutable std::shared_ptr<const LightTree> tree_;
 };
 
 /// Throws std::invalid_argument unless there are as many normals as points, all finite; names the entry.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <glm/common.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
-#include <glm/trigonometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <map>
 #include <string_view>
@@ -83,13 +83,8 @@ void require_orthonormal(const glm::dmat3& camera) {
 
 glm::dmat3 camera_axes(const glm::dvec3& euler_xyz) {
     require_finite("camera rotation", euler_xyz);
-    const glm::dvec3 c = glm::cos(euler_xyz);
-    const glm::dvec3 s = glm::sin(euler_xyz);
     // About X first, then Y, then Z; a camera of rotation 0 looks along -Z with +Y up.
-    const glm::dmat3 about_x{{1.0, 0.0, 0.0}, {0.0, c.x, s.x}, {0.0, -s.x, c.x}};
-    const glm::dmat3 about_y{{c.y, 0.0, -s.y}, {0.0, 1.0, 0.0}, {s.y, 0.0, c.y}};
-    const glm::dmat3 about_z{{c.z, s.z, 0.0}, {-s.z, c.z, 0.0}, {0.0, 0.0, 1.0}};
-    return about_z * about_y * about_x;
+    return glm::mat3_cast(glm::dquat(euler_xyz));
 }
 
 StudioLight read_studio_light(const std::filesystem::path& path, const glm::dmat3& camera) {

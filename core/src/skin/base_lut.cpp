@@ -26,10 +26,7 @@ LutMode lut_mode(std::string_view name) {
 
 LutAxis::LutAxis(std::size_t size, double max_thickness_mm)
     : size_(size), max_thickness_mm_(require_positive("max_thickness_mm", max_thickness_mm)) {
-    if (size < 1 || size > max_lut_size) {
-        refuse_argument("table size", std::to_string(size),
-                        "1 to " + std::to_string(max_lut_size) + " entries");
-    }
+    require_between("table size", size, std::size_t{1}, max_lut_size, " entries");
 }
 
 double LutAxis::thickness_mm(std::size_t i) const {

@@ -14,10 +14,7 @@ std::vector<glm::dvec3> recolor(const BaseLut& base, const glm::dvec3& weight) {
 
 void recolor(const BaseLut& base, const glm::dvec3& weight, std::span<glm::dvec3> out) {
     require_finite("weight", weight);
-    if (out.size() != base.size()) {
-        refuse_argument("size of the output", std::to_string(out.size()),
-                        "the base's, " + std::to_string(base.size()));
-    }
+    require_count("output", out.size(), base.size(), "the base's");
     const std::span<const glm::dmat3> matrices = base.matrices();
     // 0 * value is 0 for every finite value and NaN for the others: one sum checks the table without a branch
     // a texel.

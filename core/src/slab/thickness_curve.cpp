@@ -35,9 +35,7 @@ double ThicknessCurve::transmittance(double thickness_mm) const {
 }
 
 void ThicknessCurve::transmittance(std::span<const double> thickness_mm, std::span<double> out) const {
-    if (out.size() != thickness_mm.size()) {
-        refuse_argument("out", std::to_string(out.size()) + " entries", "as many as there are thicknesses");
-    }
+    require_count("out", out.size(), thickness_mm.size(), "one per thickness");
     for (const double d : thickness_mm) require_not_negative("thickness_mm", d);
     layer_->transmittance(thickness_mm, out);
 }
