@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cli/commands.h"
 #include "cli/output_text.h"
 #include "numerics/argument_check.h"
 
@@ -41,16 +42,12 @@ void TableOptions::add_to(CLI::App& command, bool with_skin) {
         names.insert("physical");
     }
     command.add_option("--mode", mode_, modes)->check(CLI::IsMember(names))->default_str("paper");
-    command
-        .add_option("--base", base_,
-                    "Base lookup image, thickness along x; else the built-in six-Gaussian skin")
-        ->type_name("IMAGE");
-    command.add_option("--size", size_, "Texels of the built-in base")
-        ->type_name("N")
-        ->default_str(std::to_string(default_lut_size));
-    command.add_option("--max-thickness", max_thickness_mm_, "Thickness of the last texel")
-        ->type_name("MM")
-        ->default_str(to_text(default_max_thickness_mm));
+    add_option(command, "--base", base_, "IMAGE",
+               "Base lookup image, thickness along x; else the built-in six-Gaussian skin");
+    add_option(command, "--size", size_, "N", "Texels of the built-in base")
+        .default_str(to_text(default_lut_size));
+    add_option(command, "--max-thickness", max_thickness_mm_, "MM", "Thickness of the last texel")
+        .default_str(to_text(default_max_thickness_mm));
 }
 
 BaseLut TableOptions::read_base() const {
@@ -69,18 +66,17 @@ void SkinOptions::add_to(CLI::App& command) {
     for (const TissuePreset& preset : tissue_presets()) {
         presets.append(presets.empty() ? "" : ", ").append(preset.name);
     }
-    command.add_option("--skin", preset_, "Of mode physical: " + presets)
-        ->type_name("PRESET")
-        ->default_str(default_preset);
+    add_option(command, "--skin", preset_, "PRESET", "Of mode physical: " + presets)
+        .default_str(default_preset);
     for (const TissueParameter& parameter : tissue_parameters()) {
         const auto* named = std::find_if(option_names.begin(), option_names.end(),
                                          [&](const auto& entry) { return entry.first == parameter.name; });
-        command.add_option(named->second, values_[parameter.name], describe(parameter))
-            ->type_name(parameter.unit == "mm" ? "MM" : "X");
+        add_option(command, named->second, values_[parameter.name], parameter.unit == "mm" ? "MM" : "X",
+                   describe(parameter));
     }
-    command.add_option("--tolerance", tolerance_, "Largest error of mode physical, relative; 1e-6 to 0.1")
-        ->type_name("X")
-        ->default_str(to_text(default_lut_tolerance));
+    add_option(command, "--tolerance", tolerance_, "X",
+               "Largest error of mode physical, relative; 1e-6 to 0.1")
+        .default_str(to_text(default_lut_tolerance));
 }
 
 bool SkinOptions::any_used() const {

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "files/color_encoding.h"
-#include "numerics/detail.h"
 
 /// Lookup tables as files. A table is an image one texel high; entry i is texel i (LutAxis). What the pixels
 /// do not say (the thickness axis in mm, how the table was made) is text in the header, keys "skinglow:...":
@@ -23,10 +22,10 @@ namespace skinglow::detail {
 /// How a recolored table was made; what does not apply stays empty.
 struct LutRecord {
     double max_thickness_mm = 0.0;
-    std::optional<LutMode> mode;
-    std::optional<glm::dvec3> light_weight;  ///< L of Eq. 3; in mode physical the irradiance E, W/m^2
-    std::optional<glm::dvec3> blood_weight;  ///< B of Eq. 1
-    std::optional<AttenuationCoefficients> coefficients;  ///< of Eq. 2
+    std::optional<LutMode> mode = {};
+    std::optional<glm::dvec3> light_weight = {};  ///< L of Eq. 3; in mode physical the irradiance E, W/m^2
+    std::optional<glm::dvec3> blood_weight = {};  ///< B of Eq. 1
+    std::optional<AttenuationCoefficients> coefficients = {};  ///< of Eq. 2
 };
 
 /// A recolored table: linear Rec.709, values above 1 kept.

@@ -1,4 +1,3 @@
-#include <array>
 
 #include "files/lut_file.h"
 #include "numerics/argument_check.h"

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "geometry/vector.h"
 #include "numerics/argument_check.h"

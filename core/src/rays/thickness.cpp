@@ -66,7 +66,7 @@ double measure(const WeldedMesh& mesh, const RayScene& scene, std::span<const st
                std::uint32_t welded, std::span<const glm::dvec3> directions,
                std::vector<WeightedValue>& samples) {
     const double max_diameter = mesh.diagonal() / mesh.scale();
-    const glm::dvec3 inward = -mesh.vertex_normal(welded);
+    const glm::dvec3 inward = -mesh.normals()[welded];
     if (inward == glm::dvec3(0)) return no_exit;
     const glm::dmat3 frame = frame_around(inward);
     samples.clear();

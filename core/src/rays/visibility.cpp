@@ -1,7 +1,6 @@
 #include <skinglow/occlusion.h>
 
 #include <algorithm>
-#include <glm/geometric.hpp>
 #include <string>
 
 #include "numerics/argument_check.h"

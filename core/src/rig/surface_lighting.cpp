@@ -5,7 +5,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
-#include <string>
 
 #include "geometry/vector.h"
 #include "numerics/argument_check.h"

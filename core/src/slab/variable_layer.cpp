@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <utility>
 
 #include "slab/layer_stack.h"
 #include "slab/stream_grid.h"
