@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-/// The sub-commands of `skinglow`, one file each. Adding one to the program: it says its options, and what it
+/// The sub-commands of `skinglow`, a file each or for two that belong together. Adding one to the program: it says its options, and what it
 /// does when it is the one chosen. What it does reports errors by throwing; `exit_code` is for outcomes that
 /// are no error.
 namespace skinglow::cli {

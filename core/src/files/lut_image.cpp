@@ -72,13 +72,9 @@ LutWriteReport write_lut_png(const std::filesystem::path& path, const LutTable& 
                          png.bits == 8 ? OIIO::TypeUInt8 : OIIO::TypeUInt16);
     // OpenImageIO makes of these the PNG chunks sRGB or gAMA, which viewers and renderers know.
     spec.attribute("oiio:ColorSpace", srgb ? "sRGB" : "Linear");
-    if (png.bits == 8) {
-        write_atomically(path,
-                         image_bytes(path, spec, text, quantize_table<std::uint8_t>(table, png).data()));
-    } else {
-        write_atomically(path,
-                         image_bytes(path, spec, text, quantize_table<std::uint16_t>(table, png).data()));
-    }
+    const auto bytes = [&](const auto& pixels) { return image_bytes(path, spec, text, pixels.data()); };
+    write_atomically(path, png.bits == 8 ? bytes(quantize_table<std::uint8_t>(table, png))
+                                         : bytes(quantize_table<std::uint16_t>(table, png)));
     return {count_clamped(table)};
 }
 

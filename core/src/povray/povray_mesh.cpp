@@ -60,13 +60,10 @@ void validate(const PovrayMesh& mesh, const std::optional<PovraySurface>& surfac
     if (!mesh.vertex_normals.empty() && !mesh.corner_normals.empty()) {
         refuse_argument("normals", "given per vertex and per corner", "one of the two");
     }
-    if (!mesh.vertex_normals.empty()) {
-        require_count("vertex_normals", mesh.vertex_normals.size(), mesh.geometry.vertices().size(),
-                      "one per vertex");
-    }
-    if (!mesh.corner_normals.empty()) {
+    if (!mesh.vertex_normals.empty())
+        require_count("vertex_normals", mesh.vertex_normals.size(), mesh.lut_u.size(), "one per vertex");
+    if (!mesh.corner_normals.empty())
         require_count("corner_normals", mesh.corner_normals.size(), corners, "three per triangle");
-    }
     require_finite_list<glm::dvec3>("vertex_normals", mesh.vertex_normals);
     require_finite_list<glm::dvec3>("corner_normals", mesh.corner_normals);
     if (has_picture(surface)) {

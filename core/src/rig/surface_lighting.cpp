@@ -12,7 +12,6 @@
 #include "radiometry/spherical_harmonics.h"
 #include "rig/light_bounds.h"
 #include "rig/rig_data.h"
-#include "rig/surface_term.h"
 
 namespace skinglow {
 namespace {
