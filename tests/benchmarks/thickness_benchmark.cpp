@@ -69,7 +69,7 @@ void head_sized_bare_embree(benchmark::State& state) {
                                                               skinglow::ThicknessOptions{}.cone_half_angle);
     for (auto _ : state) {
         for (std::uint32_t i = 0; i < mesh.positions().size(); ++i) {
-            const glm::dmat3 frame = skinglow::detail::frame_around(-mesh.vertex_normal(i));
+            const glm::dmat3 frame = skinglow::detail::frame_around(-mesh.normals()[i]);
             for (const glm::dvec3& local : directions)
                 benchmark::DoNotOptimize(scene.nearest(mesh.positions()[i], frame * local));
         }

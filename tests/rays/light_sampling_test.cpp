@@ -1,5 +1,3 @@
-#include "rays/light_sampling.h"
-
 #include <gtest/gtest.h>
 #include <skinglow/box.h>
 
@@ -12,6 +10,7 @@
 
 #include "flat_light.h"
 #include "geometry/vector.h"
+#include "rays/visible_fraction.h"
 
 namespace skinglow {
 namespace {

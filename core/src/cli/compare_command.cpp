@@ -87,22 +87,18 @@ void add_compare_command(CLI::App& program, int& exit_code) {
     const auto options = std::make_shared<Options>();
     command->add_option("A", options->first, "An image")->required();
     command->add_option("B", options->second, "Another of the same size")->required();
-    command
-        ->add_option("--heatmap", options->heat_map,
-                     "Write a picture of the difference: black none, white most")
-        ->type_name("PNG");
-    command
-        ->add_option("--scale", options->scale, "Difference that the heat map shows white; else the largest")
-        ->type_name("X")
-        ->needs("--heatmap");
-    command->add_option("--mask", options->mask, "Compare only where this image is above 0")
-        ->type_name("IMAGE");
+    add_option(*command, "--heatmap", options->heat_map, "PNG",
+               "Write a picture of the difference: black none, white most");
+    add_option(*command, "--scale", options->scale, "X",
+               "Difference that the heat map shows white; else the largest")
+        .needs("--heatmap");
+    add_option(*command, "--mask", options->mask, "IMAGE", "Compare only where this image is above 0");
     command->add_flag(
         "--ignore-edges", options->ignore_edges,
         "Leave out antialiased edges: pixels in whose 3 x 3 neighborhood alpha or mask changes");
-    command->add_option("--peak", options->peak, "Value of white for PSNR")->type_name("X");
-    command->add_option("--max-rms", options->max_rms, "Exit with 1 if the RMS over all channels is above it")
-        ->type_name("X");
+    add_option(*command, "--peak", options->peak, "X", "Value of white for PSNR");
+    add_option(*command, "--max-rms", options->max_rms, "X",
+               "Exit with 1 if the RMS over all channels is above it");
     command->add_flag("--json", options->json, "Print JSON with every digit instead of a table");
     command->footer(
         "Example: skinglow compare blender.exr povray.exr --ignore-edges --heatmap difference.png --max-rms "

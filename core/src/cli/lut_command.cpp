@@ -8,7 +8,6 @@
 #include "cli/commands.h"
 #include "cli/output_text.h"
 #include "cli/rig_options.h"
-#include "cli/skin_options.h"
 #include "cli/table_options.h"
 #include "files/atomic_file.h"
 #include "files/lut_file.h"
@@ -33,9 +32,7 @@ LutTable existing_table(const Options& options) {
             "--mode existing knows no lights and has a fixed table: leave out RIG, its options and --base");
     }
     const LutAxis axis = options.table.built_in_axis();
-    LutTable table{six_gaussian_lookup(axis), {}};
-    table.record.max_thickness_mm = axis.max_thickness_mm();
-    return table;
+    return {six_gaussian_lookup(axis), {.max_thickness_mm = axis.max_thickness_mm()}};
 }
 
 LutTable paper_table(const Options& options) {
@@ -43,12 +40,11 @@ LutTable paper_table(const Options& options) {
     const LightRig rig = options.rig.read();
     const BaseLut base = options.table.read_base();
     const glm::dvec3 lights = light_weight(rig.lights, rig.point, rig.coefficients);
-    LutTable table{recolor(base, rig.blood_weight + lights), {}};
-    table.record.max_thickness_mm = base.axis().max_thickness_mm();
-    table.record.light_weight = lights;
-    table.record.blood_weight = rig.blood_weight;
-    table.record.coefficients = rig.coefficients;
-    return table;
+    return {recolor(base, rig.blood_weight + lights),
+            {.max_thickness_mm = base.axis().max_thickness_mm(),
+             .light_weight = lights,
+             .blood_weight = rig.blood_weight,
+             .coefficients = rig.coefficients}};
 }
 
 /// The light that leaves the skin, M(d) E; without lights that of a white light that brings 1 W/m^2.
@@ -66,13 +62,11 @@ LutTable physical_table(const Options& options) {
     } else if (options.rig.any_used()) {
         throw std::invalid_argument("options of lights need a RIG file");
     }
-    LutTable table{recolor(skin.lut, irradiance), {}};
-    table.record.max_thickness_mm = axis.max_thickness_mm();
-    table.record.light_weight = irradiance;
     std::cout << "skin solved with " << skin.report.streams << " streams, error at most "
               << short_number(skin.report.estimated_error) << "; E " << to_text(irradiance)
               << " W/m^2; radiance is the table over pi\n";
-    return table;
+    return {recolor(skin.lut, irradiance),
+            {.max_thickness_mm = axis.max_thickness_mm(), .light_weight = irradiance}};
 }
 
 /// What --mode says; the options of skin alone say physical.
@@ -119,11 +113,9 @@ void add_lut_command(CLI::App& program) {
     command->add_option("--bits", options->bits, "Of a PNG")->check(CLI::IsMember({8, 16}));
     command->add_option("--encoding", options->encoding, "Of a PNG")
         ->check(CLI::IsMember({"srgb", "linear"}));
-    command->add_option("-o,--output", options->output, "File to write: .exr, .png or .csv")
-        ->type_name("FILE")
-        ->required();
-    command->add_option("--preview", options->preview, "Also write a PNG to look at, 512 x 64")
-        ->type_name("FILE");
+    add_option(*command, "-o,--output", options->output, "FILE", "File to write: .exr, .png or .csv")
+        .required();
+    add_option(*command, "--preview", options->preview, "FILE", "Also write a PNG to look at, 512 x 64");
     command->footer(
         "Example: skinglow lut table1.json --max-thickness 8 -o ear.exr --preview ear.png\n"
         "Example: skinglow lut table1.json --mode physical --skin ear --melanin 0.1 -o ear.exr");

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <utility>
 
+#include "cli/commands.h"
 #include "cli/output_text.h"
 
 namespace skinglow::cli {
@@ -23,16 +24,12 @@ bool show_progress(double done) {
 
 void MeshOptions::add_to(CLI::App& command, const std::string& mesh_name) {
     command.add_option(mesh_name, path_, "OBJ, PLY, STL, glTF or GLB")->required();
-    command
-        .add_option("--unit", unit_mm_,
-                    "Length of the mesh's unit; else 1000 for glTF and GLB, whose unit is the meter, and 1")
-        ->type_name("MM");
-    command.add_option("--group", group_, "Only this group or object of the file")->type_name("NAME");
-    command.add_option("--rays", thickness_.rays, "Rays per vertex")->type_name("N");
-    command
-        .add_option("--min-sky-visibility,--min-openness", thickness_.min_sky_visibility,
-                    "Fraction of the sky's light below which a hollow counts as flesh, 0 to 1")
-        ->type_name("X");
+    add_option(command, "--unit", unit_mm_, "MM",
+               "Length of the mesh's unit; else 1000 for glTF and GLB, whose unit is the meter, and 1");
+    add_option(command, "--group", group_, "NAME", "Only this group or object of the file");
+    add_option(command, "--rays", thickness_.rays, "N", "Rays per vertex");
+    add_option(command, "--min-sky-visibility,--min-openness", thickness_.min_sky_visibility, "X",
+               "Fraction of the sky's light below which a hollow counts as flesh, 0 to 1");
 }
 
 TriangleMesh MeshOptions::read() {

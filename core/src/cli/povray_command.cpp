@@ -17,7 +17,6 @@
 #include "cli/table_options.h"
 #include "files/atomic_file.h"
 #include "numerics/argument_check.h"
-#include "rig_files/file_error.h"
 
 namespace skinglow::cli {
 namespace {
@@ -146,22 +145,19 @@ void add_povray_command(CLI::App& program) {
     options->rig.add_to(*command, RigNeed::with_camera);
     options->mesh.add_to(*command, "--mesh");
     options->table.add_to(*command);
-    command
-        ->add_option("--lut", options->lut,
-                     "A table of skinglow lut; else the scene computes its own by the macros")
-        ->type_name("FILE");
-    command->add_option("-o,--output", options->folder, "Folder for the scene's files; made if missing")
-        ->type_name("DIR")
-        ->required();
+    add_option(*command, "--lut", options->lut, "FILE",
+               "A table of skinglow lut; else the scene computes its own by the macros");
+    add_option(*command, "-o,--output", options->folder, "DIR",
+               "Folder for the scene's files; made if missing")
+        .required();
     command->add_option("--up", options->up, "The mesh file's axis that points up")
         ->check(CLI::IsMember({"y", "z"}));
-    command->add_option("--width", options->width, "Of the picture")->type_name("PIXELS");
-    command->add_option("--height", options->height, "Of the picture")->type_name("PIXELS");
-    command->add_option("--field-of-view", options->field_of_view, "Angle that the width covers")
-        ->type_name("DEGREES");
-    command->add_option("--strength", options->strength, "Of the glow")->type_name("X");
-    command->add_option("--surface", options->surface, "Also a matt surface of this color, lit by the lights")
-        ->type_name("R G B");
+    add_option(*command, "--width", options->width, "PIXELS", "Of the picture");
+    add_option(*command, "--height", options->height, "PIXELS", "Of the picture");
+    add_option(*command, "--field-of-view", options->field_of_view, "DEGREES", "Angle that the width covers");
+    add_option(*command, "--strength", options->strength, "X", "Of the glow");
+    add_option(*command, "--surface", options->surface, "R G B",
+               "Also a matt surface of this color, lit by the lights");
     command->footer(
         "Example: skinglow povray table1.json --mesh head.obj --unit 100 --group body --up y -o scene");
     command->callback([options] { run(*options); });

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "cli/commands.h"
 #include "cli/output_text.h"
 #include "rig_files/file_error.h"
 #include "rig_files/studio_light.h"
@@ -20,20 +21,15 @@ void RigOptions::add_to(CLI::App& command, RigNeed need) {
     need_ = need;
     command.add_option("RIG", rig_path_, "Lights: a rig file (JSON) or a studio light of Blender's (*.sl)")
         ->required(need != RigNeed::optional);
-    command.add_option("--point", point_, "Where on the skin, scene units; else the rig's")
-        ->type_name("X Y Z");
-    command
-        .add_option("--coefficients", coefficients_,
-                    "Constant, linear and quadratic of the attenuation; else the rig's")
-        ->type_name("KC KL KQ");
-    command.add_option("--blood", blood_, "Blood weight B; else the rig's")->type_name("R G B");
+    add_option(command, "--point", point_, "X Y Z", "Where on the skin, scene units; else the rig's");
+    add_option(command, "--coefficients", coefficients_, "KC KL KQ",
+               "Constant, linear and quadratic of the attenuation; else the rig's");
+    add_option(command, "--blood", blood_, "R G B", "Blood weight B; else the rig's");
     const std::string whose = need == RigNeed::with_camera
                                   ? "Of the camera, on which the lights of *.sl hang"
                                   : "For *.sl: of the camera that the lights hang on";
-    command
-        .add_option("--camera-rotation", camera_degrees_,
-                    whose + ", XYZ in degrees; else 90 0 0, Blender's front view")
-        ->type_name("X Y Z");
+    add_option(command, "--camera-rotation", camera_degrees_, "X Y Z",
+               whose + ", XYZ in degrees; else 90 0 0, Blender's front view");
 }
 
 glm::dmat3 RigOptions::camera() const {

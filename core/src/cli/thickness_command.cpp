@@ -34,9 +34,7 @@ void add_thickness_command(CLI::App& program) {
         program.add_subcommand("thickness", "How thick a body is at each vertex of its mesh, in mm");
     const auto options = std::make_shared<Options>();
     options->mesh.add_to(*command, "MESH");
-    command->add_option("-o,--output", options->output, "File to write: .csv or .ply")
-        ->type_name("FILE")
-        ->required();
+    add_option(*command, "-o,--output", options->output, "FILE", "File to write: .csv or .ply").required();
     command->footer("Example: skinglow thickness head.obj --unit 100 --group body -o thickness.csv");
     command->callback([options] { run(*options); });
 }

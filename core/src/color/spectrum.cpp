@@ -141,9 +141,7 @@ Spectrum rgb_spectrum(const glm::dvec3& rgb) {
 }
 
 Spectrum blackbody_spectrum(double temperature_k) {
-    if (!(temperature_k >= 500.0 && temperature_k <= 100000.0)) {
-        refuse_argument("temperature_k", to_text(temperature_k), "500 to 100000 K");
-    }
+    require_between("temperature_k", temperature_k, 500, 100000, " K");
     constexpr double second_radiation_nm_k = 1.438776877e7;  // h c / k, CODATA 2018, in nm K
     Spectrum result{};
     for (std::size_t k = 0; k < spectral_samples; ++k) {
@@ -157,9 +155,7 @@ Spectrum blackbody_spectrum(double temperature_k) {
 }
 
 Spectrum line_spectrum(double center_nm, double fwhm_nm) {
-    if (!(center_nm >= 380.0 && center_nm <= 780.0)) {
-        refuse_argument("center_nm", to_text(center_nm), "380 to 780 nm");
-    }
+    require_between("center_nm", center_nm, 380, 780, " nm");
     if (!(fwhm_nm > 0.0 && fwhm_nm <= 400.0))
         refuse_argument("fwhm_nm", to_text(fwhm_nm), "above 0 and at most 400 nm");
     constexpr int pieces_per_fwhm = 32;

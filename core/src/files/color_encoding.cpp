@@ -4,8 +4,6 @@
 #include <cmath>
 #include <glm/matrix.hpp>
 
-#include "rig_files/file_error.h"
-
 namespace skinglow::detail {
 namespace {
 

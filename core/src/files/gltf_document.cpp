@@ -4,7 +4,6 @@
 #include <array>
 #include <system_error>
 
-#include "files/gltf_uri.h"
 #include "files/mesh_builder.h"
 
 namespace skinglow::detail {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "files/number_bytes.h"
-#include "numerics/detail.h"
 
 namespace skinglow::detail {
 
@@ -83,5 +82,10 @@ class GltfDocument {
 
 /// Whether the geometry can be read without knowing the extension, or it is one that is read.
 bool is_readable_extension(std::string_view name);
+
+/// Bytes of base64 (RFC 4648), padded or not. False where there is something else in it.
+bool decode_base64(std::string_view text, std::string& bytes);
+/// Bytes of a percent-encoded URI (RFC 3986). False where a % has no two digits.
+bool decode_percent(std::string_view text, std::string& bytes);
 
 }  // namespace skinglow::detail

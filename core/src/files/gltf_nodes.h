@@ -1,11 +1,9 @@
 #pragma once
 
 #include <glm/mat4x4.hpp>
-#include <string>
 #include <vector>
 
 #include "files/gltf_document.h"
-#include "numerics/detail.h"
 
 namespace skinglow::detail {
 

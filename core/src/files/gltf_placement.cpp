@@ -1,6 +1,5 @@
 #include "files/gltf_placement.h"
 
-#include <algorithm>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <optional>

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "files/gltf_nodes.h"
-#include "numerics/detail.h"
 
 namespace skinglow::detail {
 

@@ -1,9 +1,28 @@
-#include "files/gltf_uri.h"
-
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "files/gltf_document.h"
+
 namespace skinglow::detail {
+
+namespace {
+
+constexpr std::uint8_t no_digit = 64;
+
+/// The value of each letter in base64; - and _ are + and / in URIs.
+constexpr std::array<std::uint8_t, 256> base64_digits = [] {
+    std::array<std::uint8_t, 256> values{};
+    values.fill(no_digit);
+    std::uint8_t value = 0;
+    for (const char c : std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"))
+        values[static_cast<unsigned char>(c)] = value++;
+    values['-'] = values['+'];
+    values['_'] = values['/'];
+    return values;
+}();
+
+}  // namespace
 
 bool decode_base64(std::string_view text, std::string& bytes) {
     while (text.ends_with('=')) text.remove_suffix(1);
@@ -12,20 +31,8 @@ bool decode_base64(std::string_view text, std::string& bytes) {
     std::uint32_t bits = 0;
     int held = 0;
     for (const char letter : text) {
-        std::uint32_t digit = 0;
-        if (letter >= 'A' && letter <= 'Z') {
-            digit = static_cast<std::uint32_t>(letter - 'A');
-        } else if (letter >= 'a' && letter <= 'z') {
-            digit = static_cast<std::uint32_t>(letter - 'a') + 26;
-        } else if (letter >= '0' && letter <= '9') {
-            digit = static_cast<std::uint32_t>(letter - '0') + 52;
-        } else if (letter == '+' || letter == '-') {
-            digit = 62;
-        } else if (letter == '/' || letter == '_') {
-            digit = 63;
-        } else {
-            return false;
-        }
+        const std::uint32_t digit = base64_digits[static_cast<unsigned char>(letter)];
+        if (digit == no_digit) return false;
         bits = (bits << 6U | digit) & 0xFFFFFFU;
         held += 6;
         if (held >= 8) {

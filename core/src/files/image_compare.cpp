@@ -1,14 +1,15 @@
 #include "files/image_compare.h"
 
+#include <OpenImageIO/imagebufalgo.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 #include "files/atomic_file.h"
-#include "files/image_output.h"
+#include "files/image_io.h"
 #include "numerics/argument_check.h"
 #include "rig_files/file_error.h"
 
@@ -29,27 +30,15 @@ void require_same_size(const std::filesystem::path& path, const LinearImage& ima
                 "render both at one size");
 }
 
-/// Whether each pixel's 3 x 3 neighborhood holds more than one value; marks it in `edge`.
-void mark_edges(const std::vector<float>& values, int width, int height, std::vector<char>& edge) {
-    const auto at = [&](int x, int y) {
-        return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                      static_cast<std::size_t>(x)];
-    };
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            float min = at(x, y);
-            float max = min;
-            for (int j = std::max(0, y - 1); j <= std::min(height - 1, y + 1); ++j) {
-                for (int i = std::max(0, x - 1); i <= std::min(width - 1, x + 1); ++i) {
-                    min = std::min(min, at(i, j));
-                    max = std::max(max, at(i, j));
-                }
-            }
-            if (max - min > edge_tolerance) {
-                edge[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                     static_cast<std::size_t>(x)] = 1;
-            }
-        }
+/// Marks pixels in whose 3 x 3 neighborhood not all values are the same.
+void mark_edges(std::vector<float>& values, const LinearImage& image, std::vector<char>& edge) {
+    const OIIO::ImageBuf given(OIIO::ImageSpec(image.width, image.height, 1, OIIO::TypeFloat), values.data());
+    const OIIO::ImageBuf largest = OIIO::ImageBufAlgo::dilate(given);  // over 3 x 3
+    const OIIO::ImageBuf smallest = OIIO::ImageBufAlgo::erode(given);
+    const auto* max = static_cast<const float*>(largest.localpixels());
+    const auto* min = static_cast<const float*>(smallest.localpixels());
+    for (std::size_t i = 0; i < edge.size(); ++i) {
+        if (max[i] - min[i] > edge_tolerance) edge[i] = 1;
     }
 }
 
@@ -65,8 +54,8 @@ std::vector<float> read_mask(const std::filesystem::path& path, const std::files
 }
 
 /// 1 where a pixel is left out.
-std::vector<char> left_out(const std::filesystem::path& first_path, const LinearImage& first,
-                           const LinearImage& second, const CompareOptions& options) {
+std::vector<char> left_out(const std::filesystem::path& first_path, LinearImage& first, LinearImage& second,
+                           const CompareOptions& options) {
     std::vector<char> out(first.pixels(), 0);
     std::vector<float> mask;
     if (options.mask) mask = read_mask(*options.mask, first_path, first);
@@ -75,8 +64,8 @@ std::vector<char> left_out(const std::filesystem::path& first_path, const Linear
             refuse_file(first_path, "has no alpha to find edges by, nor has the other",
                         "render with a transparent background, or give a mask");
         }
-        for (const std::vector<float>* coverage : {&first.alpha, &second.alpha, &std::as_const(mask)}) {
-            if (!coverage->empty()) mark_edges(*coverage, first.width, first.height, out);
+        for (std::vector<float>* coverage : {&first.alpha, &second.alpha, &mask}) {
+            if (!coverage->empty()) mark_edges(*coverage, first, out);
         }
     }
     for (std::size_t i = 0; i < mask.size(); ++i) {
@@ -100,8 +89,8 @@ void add_notes(ImageComparison& comparison, const std::filesystem::path& path, c
 ImageComparison compare_images(const std::filesystem::path& first_path,
                                const std::filesystem::path& second_path, const CompareOptions& options) {
     require_positive("peak", options.peak);
-    const LinearImage first = read_image(first_path);
-    const LinearImage second = read_image(second_path);
+    LinearImage first = read_image(first_path);
+    LinearImage second = read_image(second_path);
     require_same_size(first_path, first, second_path, second);
     const std::vector<char> out = left_out(first_path, first, second, options);
 

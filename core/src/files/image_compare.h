@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "files/image_file.h"
-#include "numerics/detail.h"
 
 namespace skinglow::detail {
 

@@ -1,13 +1,14 @@
 #include "files/image_file.h"
 
+#include <OpenImageIO/imagebufalgo.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
 #include "files/color_encoding.h"
-#include "files/image_input.h"
-#include "files/image_layers.h"
+#include "files/image_io.h"
 #include "rig_files/file_error.h"
 
 namespace skinglow::detail {
@@ -93,32 +94,21 @@ void check_number_type(const ImageInput& input, const ColorChannels& color) {
     }
 }
 
-/// Puts the data window into the whole picture, black around it.
-template <int channels>
-std::vector<float> in_full_window(const std::vector<float>& data, const OIIO::ImageSpec& spec) {
-    std::vector<float> full(static_cast<std::size_t>(spec.full_width) *
-                            static_cast<std::size_t>(spec.full_height) * channels);
-    for (int y = 0; y < spec.height; ++y) {
-        const int row = y + spec.y - spec.full_y;
-        const int first = std::max(0, spec.full_x - spec.x);
-        const int last = std::min(spec.width, spec.full_x + spec.full_width - spec.x);
-        if (row < 0 || row >= spec.full_height || first >= last) continue;
-        const auto* source = data.data() + (std::ptrdiff_t{y} * spec.width + first) * channels;
-        std::copy_n(
-            source, std::ptrdiff_t{last - first} * channels,
-            full.data() + (std::ptrdiff_t{row} * spec.full_width + first + spec.x - spec.full_x) * channels);
-    }
-    return full;
+/// Values of the data window in the whole picture, 0 around it.
+std::vector<float> in_full_window(std::vector<float>& values, OIIO::ImageSpec window, int channels) {
+    window.nchannels = channels;
+    window.set_format(OIIO::TypeFloat);
+    const OIIO::ImageBuf full =
+        OIIO::ImageBufAlgo::crop(OIIO::ImageBuf(window, values.data()), window.roi_full());
+    const auto* first = static_cast<const float*>(full.localpixels());
+    return {first, first + full.spec().image_pixels() * static_cast<OIIO::imagesize_t>(channels)};
 }
 
 void fill_full_window(LinearImage& image, const OIIO::ImageSpec& spec) {
-    if (spec.x == spec.full_x && spec.y == spec.full_y && spec.width == spec.full_width &&
-        spec.height == spec.full_height) {
-        return;
-    }
+    if (spec.roi() == spec.roi_full()) return;
     if (image.alpha.empty()) image.alpha.assign(image.pixels(), 1.0F);
-    image.rgb = in_full_window<3>(image.rgb, spec);
-    image.alpha = in_full_window<1>(image.alpha, spec);
+    image.rgb = in_full_window(image.rgb, spec, 3);
+    image.alpha = in_full_window(image.alpha, spec, 1);
     image.width = spec.full_width;
     image.height = spec.full_height;
     image.notes.emplace_back("its data window was put into the whole picture, black around it");

@@ -1,7 +1,6 @@
-#include "files/image_layers.h"
-
 #include <algorithm>
 
+#include "files/image_io.h"
 #include "rig_files/file_error.h"
 
 namespace skinglow::detail {

@@ -6,7 +6,6 @@
 
 #include "files/atomic_file.h"
 #include "files/image_file.h"
-#include "files/lut_format.h"
 #include "numerics/argument_check.h"
 #include "rig_files/file_error.h"
 

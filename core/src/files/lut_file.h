@@ -6,12 +6,12 @@
 #include <cstddef>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "files/color_encoding.h"
-#include "numerics/detail.h"
 
 /// Lookup tables as files. A table is an image one texel high; entry i is texel i (LutAxis). What the pixels
 /// do not say (the thickness axis in mm, how the table was made) is text in the header, keys "skinglow:...":
@@ -22,10 +22,10 @@ namespace skinglow::detail {
 /// How a recolored table was made; what does not apply stays empty.
 struct LutRecord {
     double max_thickness_mm = 0.0;
-    std::optional<LutMode> mode;
-    std::optional<glm::dvec3> light_weight;  ///< L of Eq. 3; in mode physical the irradiance E, W/m^2
-    std::optional<glm::dvec3> blood_weight;  ///< B of Eq. 1
-    std::optional<AttenuationCoefficients> coefficients;  ///< of Eq. 2
+    std::optional<LutMode> mode = {};
+    std::optional<glm::dvec3> light_weight = {};  ///< L of Eq. 3; in mode physical the irradiance E, W/m^2
+    std::optional<glm::dvec3> blood_weight = {};  ///< B of Eq. 1
+    std::optional<AttenuationCoefficients> coefficients = {};  ///< of Eq. 2
 };
 
 /// A recolored table: linear Rec.709, values above 1 kept.
@@ -88,5 +88,21 @@ struct BaseLutFile {
 /// `notes` Throws FileError as read_image does, where the image is wider than max_lut_size or a brightness is
 /// negative.
 BaseLutFile read_base_lut(const std::filesystem::path& path, std::optional<double> max_thickness_mm = {});
+
+// The formats behind it, for this folder alone.
+
+using HeaderText = std::map<std::string, std::string>;
+
+/// The record as header text, and back. Reading throws FileError, naming the key, where a value is not what
+/// it should be or max_thickness_mm is missing.
+HeaderText to_header_text(const LutRecord& record);
+LutRecord to_lut_record(const HeaderText& text, const std::filesystem::path& path);
+
+/// The axis in the text, if it has one. Throws FileError where its value is not a number above 0.
+std::optional<double> axis_in(const HeaderText& text, const std::filesystem::path& path);
+
+LutWriteReport write_lut_png(const std::filesystem::path& path, const LutTable& table, const PngOptions& png);
+void write_lut_csv(const std::filesystem::path& path, const LutTable& table);
+LutFile read_lut_csv(const std::filesystem::path& path);
 
 }  // namespace skinglow::detail

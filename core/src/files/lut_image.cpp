@@ -4,8 +4,8 @@
 #include <glm/common.hpp>
 
 #include "files/atomic_file.h"
-#include "files/image_output.h"
-#include "files/lut_format.h"
+#include "files/image_io.h"
+#include "files/lut_file.h"
 #include "numerics/argument_check.h"
 #include "rig_files/file_error.h"
 
@@ -40,11 +40,6 @@ std::size_t count_clamped(const LutTable& table) {
                       [](const glm::dvec3& color) { return color != glm::clamp(color, 0.0, 1.0); }));
 }
 
-void check_side(const char* name, int value) {
-    constexpr int longest = 16384;
-    if (value < 1 || value > longest) refuse_argument(name, std::to_string(value), "1 to 16384 pixels");
-}
-
 /// The table at 0 (first entry) to 1 (last).
 glm::dvec3 sample(const std::vector<glm::dvec3>& colors, double position) {
     const double index = position * static_cast<double>(colors.size() - 1);
@@ -77,20 +72,16 @@ LutWriteReport write_lut_png(const std::filesystem::path& path, const LutTable& 
                          png.bits == 8 ? OIIO::TypeUInt8 : OIIO::TypeUInt16);
     // OpenImageIO makes of these the PNG chunks sRGB or gAMA, which viewers and renderers know.
     spec.attribute("oiio:ColorSpace", srgb ? "sRGB" : "Linear");
-    if (png.bits == 8) {
-        write_atomically(path,
-                         image_bytes(path, spec, text, quantize_table<std::uint8_t>(table, png).data()));
-    } else {
-        write_atomically(path,
-                         image_bytes(path, spec, text, quantize_table<std::uint16_t>(table, png).data()));
-    }
+    const auto bytes = [&](const auto& pixels) { return image_bytes(path, spec, text, pixels.data()); };
+    write_atomically(path, png.bits == 8 ? bytes(quantize_table<std::uint8_t>(table, png))
+                                         : bytes(quantize_table<std::uint16_t>(table, png)));
     return {count_clamped(table)};
 }
 
 LutWriteReport write_lut_preview(const std::filesystem::path& path, const LutTable& table, int width,
                                  int height) {
-    check_side("preview width", width);
-    check_side("preview height", height);
+    require_between("preview width", width, 1, 16384, " pixels");
+    require_between("preview height", height, 1, 16384, " pixels");
     if (small_extension(path) != ".png") refuse_file(path, "cannot hold a preview", "name it .png");
     const LutAxis checked(table.colors.size(), table.record.max_thickness_mm);
     LutTable columns;

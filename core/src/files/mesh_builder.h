@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "files/mesh_file.h"
-#include "numerics/detail.h"
 #include "rig_files/file_error.h"
 
 /// What the mesh readers of this folder share. Not for use outside of it.

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "files/number_bytes.h"
-#include "numerics/detail.h"
 
 namespace skinglow::detail {
 

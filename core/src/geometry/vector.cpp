@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/matrix.hpp>
 
 namespace skinglow::detail {
 
@@ -41,6 +42,14 @@ glm::dvec3 triangle_normal(const glm::dvec3& a, const glm::dvec3& b, const glm::
     const double area = glm::length(normal);
     const double longest_sq = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(v - u, v - u)});
     return area > min_area * longest_sq ? normal / area : glm::dvec3(0.0);
+}
+
+bool is_orthogonal(const glm::dmat3& matrix, double tolerance) {
+    const glm::dmat3 error = glm::transpose(matrix) * matrix - glm::dmat3(1.0);
+    for (int i = 0; i < 9; ++i) {
+        if (!(std::abs(error[i / 3][i % 3]) < tolerance)) return false;
+    }
+    return true;
 }
 
 glm::dmat3 frame_around(const glm::dvec3& unit_axis) {

@@ -27,6 +27,9 @@ double max_abs(const glm::dvec3& v);
 /// finite corners less than the largest double apart.
 glm::dvec3 triangle_normal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
+/// Whether no entry of M^T M - 1 is as large as the tolerance; not where one is NaN.
+bool is_orthogonal(const glm::dmat3& matrix, double tolerance);
+
 /// Right-handed orthonormal frame, as columns x, y, z, whose z is the unit vector given. It takes directions
 /// about +z to that axis.
 glm::dmat3 frame_around(const glm::dvec3& unit_axis);

@@ -9,7 +9,6 @@
 #include <span>
 #include <vector>
 
-#include "numerics/detail.h"
 #include "numerics/huge_pages.h"
 
 namespace skinglow::detail {

@@ -1,9 +1,7 @@
 #include "geometry/welded_mesh.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numeric>
 #include <utility>
 
 #include "geometry/vector.h"
@@ -15,7 +13,7 @@ WeldedMesh::WeldedMesh(const MeshView& mesh) : weld_(weld(mesh.vertices())) {
     normalize(mesh);
     add_triangles(mesh.triangles());
     orient_outwards();
-    index_triangles();
+    add_normals();
 }
 
 void WeldedMesh::normalize(const MeshView& mesh) {
@@ -62,38 +60,22 @@ void WeldedMesh::orient_outwards() {
     }
 }
 
-void WeldedMesh::index_triangles() {
-    triangle_begin_.assign(positions_.size() + 1, 0);
+void WeldedMesh::add_normals() {
+    normals_.assign(positions_.size(), glm::dvec3(0.0));
+    std::vector<double> angles(positions_.size());
     for (const WeldedTriangle& t : triangles_) {
-        for (int k = 0; k < 3; ++k) ++triangle_begin_[t.corners[k] + 1];
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec3& p = positions_[t.corners[k]];
+            const double angle =
+                angle_between(positions_[t.corners[(k + 1) % 3]] - p, positions_[t.corners[(k + 2) % 3]] - p);
+            normals_[t.corners[k]] += angle * t.unit_normal;
+            angles[t.corners[k]] += angle;
+        }
     }
-    std::partial_sum(triangle_begin_.begin(), triangle_begin_.end(), triangle_begin_.begin());
-    triangle_list_.resize(3 * triangles_.size());
-    std::vector<std::uint32_t> next(triangle_begin_.begin(), triangle_begin_.end() - 1);
-    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-        for (int k = 0; k < 3; ++k) triangle_list_[next[triangles_[i].corners[k]]++] = i;
+    for (std::size_t i = 0; i < normals_.size(); ++i) {
+        const double size = glm::length(normals_[i]);
+        normals_[i] = size > 1e-9 * angles[i] ? normals_[i] / size : glm::dvec3(0.0);
     }
-}
-
-std::span<const std::uint32_t> WeldedMesh::triangles_at(std::uint32_t welded) const {
-    return {triangle_list_.data() + triangle_begin_[welded],
-            triangle_list_.data() + triangle_begin_[welded + 1]};
-}
-
-glm::dvec3 WeldedMesh::vertex_normal(std::uint32_t welded) const {
-    glm::dvec3 sum(0);
-    double angles = 0;
-    for (const std::uint32_t index : triangles_at(welded)) {
-        const WeldedTriangle& t = triangles_[index];
-        const int k = t.corners.x == welded ? 0 : t.corners.y == welded ? 1 : 2;
-        const glm::dvec3& p = positions_[welded];
-        const double angle =
-            angle_between(positions_[t.corners[(k + 1) % 3]] - p, positions_[t.corners[(k + 2) % 3]] - p);
-        sum += angle * t.unit_normal;
-        angles += angle;
-    }
-    const double size = glm::length(sum);
-    return size > 1e-9 * angles ? sum / size : glm::dvec3(0);
 }
 
 }  // namespace skinglow::detail

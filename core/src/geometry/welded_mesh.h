@@ -29,12 +29,10 @@ class WeldedMesh {
     const std::vector<WeldedTriangle>& triangles() const { return triangles_; }
     /// For each vertex given, its welded one.
     const std::vector<std::uint32_t>& welded_of() const { return weld_.index; }
-    /// Triangles at a welded vertex, ascending.
-    std::span<const std::uint32_t> triangles_at(std::uint32_t welded) const;
-    /// Unit vector out of the surface, the faces weighted by their angle at the vertex (Thuermer and
+    /// For each welded vertex a unit vector out of the surface, the faces weighted by their angle at the vertex (Thuermer and
     /// Wuethrich, "Computing Vertex Normals from Polygonal Facets", J. Graphics Tools 3(1), 1998); (0, 0, 0)
     /// where the faces cancel out or there are none.
-    glm::dvec3 vertex_normal(std::uint32_t welded) const;
+    const std::vector<glm::dvec3>& normals() const { return normals_; }
     /// Length of the unit box's edge in the units given; 0 where all vertices coincide.
     double scale() const { return scale_; }
     /// Diagonal of the bounding box of all that triangles use, in the units given.
@@ -44,13 +42,12 @@ class WeldedMesh {
     void normalize(const MeshView& mesh);
     void add_triangles(std::span<const glm::uvec3> triangles);
     void orient_outwards();
-    void index_triangles();
+    void add_normals();
 
     Weld weld_;
     std::vector<glm::dvec3> positions_;
     std::vector<WeldedTriangle> triangles_;
-    std::vector<std::uint32_t> triangle_begin_;
-    std::vector<std::uint32_t> triangle_list_;
+    std::vector<glm::dvec3> normals_;
     double scale_ = 0;
     double diagonal_ = 0;
 };

@@ -96,8 +96,7 @@ double unnormalized_power_factor(const Light& light) {
 }
 
 glm::dvec3 black_body_color(double kelvin) {
-    if (!(kelvin >= 800 && kelvin <= 20000))
-        refuse_argument("temperature", to_text(kelvin), "800 to 20000 K");
+    require_between("temperature", kelvin, 800, 20000, " K");
     return glm::max(spectral_color(blackbody_spectrum(kelvin)), 0.0);
 }
 

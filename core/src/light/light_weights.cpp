@@ -1,6 +1,5 @@
 #include <skinglow/light_weights.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "geometry/vector.h"

@@ -25,4 +25,9 @@ std::string to_text(const glm::dvec3& value) {
     return "(" + to_text(value.x) + ", " + to_text(value.y) + ", " + to_text(value.z) + ")";
 }
 
+void require_count(std::string_view name, std::size_t count, std::size_t wanted, std::string_view of_what) {
+    if (count != wanted)
+        refuse_argument(name, to_text(count) + " entries", to_text(wanted) + ", " + std::string(of_what));
+}
+
 }  // namespace skinglow::detail

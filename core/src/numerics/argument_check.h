@@ -18,6 +18,12 @@ namespace skinglow::detail {
 /// The shortest text that reads back as the same double; "nan" and "inf" for those.
 std::string to_text(double value);
 std::string to_text(const glm::dvec3& value);
+std::string to_text(std::integral auto value) {
+    return std::to_string(value);
+}
+
+/// Refuses an array of another length: "name is 3 entries; allowed: 4, one per vertex".
+void require_count(std::string_view name, std::size_t count, std::size_t wanted, std::string_view of_what);
 
 /// What an argument is called: text, or a function that returns it. A name that has to be put together is
 /// given as a function, which is called only once the argument is refused: checks stand in inner loops.
@@ -60,6 +66,13 @@ double require_not_negative(const Name& name, double value) {
 template <ArgumentName Name>
 double require_positive(const Name& name, double value) {
     return require(name, value, std::isfinite(value) && value > 0, "a finite number above 0");
+}
+/// @param unit  what follows the range in the message, such as " mm"
+template <ArgumentName Name, typename Value, typename Bound>
+Value require_between(const Name& name, Value value, Bound min, Bound max, std::string_view unit = "") {
+    if (!(value >= min && value <= max))
+        refuse_value(name, value, to_text(min) + " to " + to_text(max) + std::string(unit));
+    return value;
 }
 template <ArgumentName Name>
 glm::dvec3 require_finite(const Name& name, const glm::dvec3& value) {

@@ -32,52 +32,34 @@ Quadrature rule_of_jacobi_matrix(const Eigen::VectorXd& diagonal, const Eigen::V
     return rule;
 }
 
-Quadrature make_gauss_rule(std::size_t count) {
-    return rule_of_jacobi_matrix(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count)),
-                                 legendre_recurrence(count));
-}
-
-Quadrature make_radau_rule(std::size_t count, FixedNode end) {
-    if (count == 1) return {{end == FixedNode::at_one ? 1.0 : 0.0}, {1.0}};
-    // Golub (1973, SIAM Review 15:318): the last diagonal entry is chosen so that the end is an eigenvalue.
+Quadrature make_rule(std::size_t count, FixedNode fixed) {
     const Eigen::VectorXd off = legendre_recurrence(count);
+    Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(off.size() + 1);
+    if (fixed == FixedNode::none) return rule_of_jacobi_matrix(diagonal, off);
+    if (count == 1) return {{fixed == FixedNode::at_one ? 1.0 : 0.0}, {1.0}};
+    // Golub (1973, SIAM Review 15:318): the last diagonal entry is chosen so that the end is an eigenvalue.
     double ratio = 1;  // p_k(1) / p_(k-1)(1) of the monic polynomials
     for (Eigen::Index k = 0; k + 1 < off.size(); ++k) ratio = 1 - off[k] * off[k] / ratio;
-    Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(off.size() + 1);
     diagonal[off.size()] = 1 - off[off.size() - 1] * off[off.size() - 1] / ratio;
     Quadrature rule = rule_of_jacobi_matrix(diagonal, off);
     rule.node.back() = 1;
-    if (end == FixedNode::at_one) return rule;
+    if (fixed == FixedNode::at_one) return rule;
     std::ranges::reverse(rule.node);
     std::ranges::reverse(rule.weight);
     for (double& node : rule.node) node = 1 - node;
     return rule;
 }
 
-enum class Family { gauss, radau_at_zero, radau_at_one };
-
-// Each rule is made once.
-const Quadrature& kept_rule(Family family, std::size_t count) {
-    static std::mutex mutex;
-    static std::map<std::pair<Family, std::size_t>, Quadrature>
-        rules;  // which leaves its entries where they are
-    const std::scoped_lock lock(mutex);
-    const std::pair key(family, count);
-    const auto found = rules.find(key);
-    if (found != rules.end()) return found->second;
-    const FixedNode end = family == Family::radau_at_one ? FixedNode::at_one : FixedNode::at_zero;
-    return rules.emplace(key, family == Family::gauss ? make_gauss_rule(count) : make_radau_rule(count, end))
-        .first->second;
-}
-
 }  // namespace
 
-const Quadrature& gauss_rule(std::size_t count) {
-    return kept_rule(Family::gauss, count);
-}
-
-const Quadrature& radau_rule(std::size_t count, FixedNode end) {
-    return kept_rule(end == FixedNode::at_zero ? Family::radau_at_zero : Family::radau_at_one, count);
+const Quadrature& gauss_rule(std::size_t count, FixedNode fixed) {
+    static std::mutex mutex;
+    static std::map<std::pair<FixedNode, std::size_t>, Quadrature>
+        rules;  // which leaves its entries where they are
+    const std::scoped_lock lock(mutex);
+    const std::pair key(fixed, count);
+    const auto found = rules.find(key);
+    return found != rules.end() ? found->second : rules.emplace(key, make_rule(count, fixed)).first->second;
 }
 
 }  // namespace skinglow::detail

@@ -13,12 +13,11 @@ struct Quadrature {
     std::vector<double> weight;
 };
 
-/// Gauss-Legendre rule of `count` nodes, exact to degree 2 count - 1. Each rule is computed once and kept.
-const Quadrature& gauss_rule(std::size_t count);
+enum class FixedNode { none, at_zero, at_one };
 
-/// Gauss-Radau rule of `count` nodes, one of them at the end given; exact to degree 2 count - 2.
-enum class FixedNode { at_zero, at_one };
-const Quadrature& radau_rule(std::size_t count, FixedNode end);
+/// Gauss-Legendre rule of `count` nodes, exact to degree 2 count - 1; with a node fixed at an end the Gauss-Radau rule,
+/// exact to one degree less. Each rule is computed once and kept.
+const Quadrature& gauss_rule(std::size_t count, FixedNode fixed = FixedNode::none);
 
 /// The Gauss-Legendre rule of a fixed number of nodes, found without a search.
 template <std::size_t Count>

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "geometry/vector.h"
 #include "numerics/argument_check.h"
@@ -76,10 +75,8 @@ namespace detail {
 
 void validate(const PovrayCamera& camera) {
     constexpr std::uint32_t max_size = 65535;
-    for (const auto& [name, size] :
-         {std::pair{"camera width", camera.width}, {"camera height", camera.height}}) {
-        if (size < 1 || size > max_size) refuse_argument(name, std::to_string(size), "1 to 65535 pixels");
-    }
+    require_between("camera width", camera.width, 1U, max_size, " pixels");
+    require_between("camera height", camera.height, 1U, max_size, " pixels");
     for (int column = 0; column < 4; ++column) {
         const glm::dvec3 vector(camera.matrix_world[column]);
         require_finite("camera matrix_world column " + std::to_string(column), vector);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <utility>
 
 #include "numerics/argument_check.h"
 #include "povray/povray_parts.h"

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "geometry/vector.h"

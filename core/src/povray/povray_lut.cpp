@@ -1,6 +1,5 @@
-#include <array>
-#include <cmath>
-#include <utility>
+#include <algorithm>
+#include <map>
 
 #include "numerics/argument_check.h"
 #include "povray/povray_parts.h"
@@ -65,10 +64,9 @@ std::vector<double> gray_entries(const BaseLut& base) {
 namespace detail {
 
 std::string_view povray_image_keyword(std::string_view field, std::string_view file) {
-    using Keyword = std::pair<std::string_view, std::string_view>;
-    constexpr std::array<Keyword, 7> keywords = {
-        Keyword{".exr", "exr"},   Keyword{".hdr", "hdr"},  Keyword{".png", "png"},  Keyword{".jpg", "jpeg"},
-        Keyword{".jpeg", "jpeg"}, Keyword{".tif", "tiff"}, Keyword{".tiff", "tiff"}};
+    static const std::map<std::string, std::string_view> keywords = {
+        {".exr", "exr"},   {".hdr", "hdr"},  {".png", "png"},  {".jpg", "jpeg"},
+        {".jpeg", "jpeg"}, {".tif", "tiff"}, {".tiff", "tiff"}};
     const std::string quoted = "\"" + sdl_comment(file) + "\"";
     // POV-Ray may read the scene's folder and nothing else, in the set-up that distributions ship.
     if (file.empty() || file.find_first_of("/\\") != std::string_view::npos) {
@@ -76,9 +74,7 @@ std::string_view povray_image_keyword(std::string_view field, std::string_view f
     }
     std::string extension(file.substr(std::min(file.rfind('.'), file.size())));
     for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
-    for (const auto& [known, keyword] : keywords) {
-        if (known == extension) return keyword;
-    }
+    if (const auto found = keywords.find(extension); found != keywords.end()) return found->second;
     refuse_argument(field, quoted, "a name that ends in .exr, .hdr, .png, .jpg, .jpeg, .tif or .tiff");
 }
 
@@ -95,13 +91,9 @@ void validate(const PovrayLut& lut) {
                         "image: skinglow.inc computes modes existing and paper");
     }
     if (lut.mode == LutMode::existing) return;
-    if (lut.base.size() != lut.axis.size()) {
-        refuse_argument("base", std::to_string(lut.base.size()) + " entries",
-                        std::to_string(lut.axis.size()) + ", the axis's");
-    }
-    for (std::size_t i = 0; i < lut.base.size(); ++i) {
-        require_not_negative("base[" + std::to_string(i) + "]", lut.base[i]);
-    }
+    require_count("base", lut.base.size(), lut.axis.size(), "the axis's");
+    for (std::size_t i = 0; i < lut.base.size(); ++i)
+        require_not_negative(entry_name("base", i), lut.base[i]);
     require_finite("blood_weight", lut.blood_weight);
     require_finite("point", lut.point);
     validate(lut.coefficients);

@@ -43,19 +43,10 @@ void add_corner_indices(SdlText& text, std::string_view keyword, const Weld& cor
     add_indices(text, keyword, corners.index.size() / 3, [&](std::size_t i) { return corners.index[i]; });
 }
 
-void require_count(std::string_view name, std::size_t count, std::size_t wanted, std::string_view of_what) {
-    if (count != wanted) {
-        refuse_argument(name, std::to_string(count) + " entries",
-                        std::to_string(wanted) + ", " + std::string(of_what));
-    }
-}
-
 template <typename Vector>
 void require_finite_list(std::string_view name, std::span<const Vector> values) {
     for (std::size_t i = 0; i < values.size(); ++i) {
-        for (int k = 0; k < values[i].length(); ++k) {
-            require_finite(std::string(name) + "[" + std::to_string(i) + "]", values[i][k]);
-        }
+        for (int k = 0; k < values[i].length(); ++k) require_finite(entry_name(name, i), values[i][k]);
     }
 }
 
@@ -65,19 +56,14 @@ void validate(const PovrayMesh& mesh, const std::optional<PovraySurface>& surfac
     const std::size_t corners = 3 * mesh.geometry.triangles().size();
     if (corners == 0) refuse_argument("mesh", "0 triangles", "1 or more");
     require_count("lut_u", mesh.lut_u.size(), mesh.geometry.vertices().size(), "one per vertex");
-    for (std::size_t i = 0; i < mesh.lut_u.size(); ++i) {
-        require_finite("lut_u[" + std::to_string(i) + "]", mesh.lut_u[i]);
-    }
+    for (std::size_t i = 0; i < mesh.lut_u.size(); ++i) require_finite(entry_name("lut_u", i), mesh.lut_u[i]);
     if (!mesh.vertex_normals.empty() && !mesh.corner_normals.empty()) {
         refuse_argument("normals", "given per vertex and per corner", "one of the two");
     }
-    if (!mesh.vertex_normals.empty()) {
-        require_count("vertex_normals", mesh.vertex_normals.size(), mesh.geometry.vertices().size(),
-                      "one per vertex");
-    }
-    if (!mesh.corner_normals.empty()) {
+    if (!mesh.vertex_normals.empty())
+        require_count("vertex_normals", mesh.vertex_normals.size(), mesh.lut_u.size(), "one per vertex");
+    if (!mesh.corner_normals.empty())
         require_count("corner_normals", mesh.corner_normals.size(), corners, "three per triangle");
-    }
     require_finite_list<glm::dvec3>("vertex_normals", mesh.vertex_normals);
     require_finite_list<glm::dvec3>("corner_normals", mesh.corner_normals);
     if (has_picture(surface)) {

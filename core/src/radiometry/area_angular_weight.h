@@ -5,7 +5,6 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "numerics/detail.h"
 #include "radiometry/prepared_light.h"
 
 namespace skinglow::detail {

@@ -1,12 +1,11 @@
 #include <skinglow/environment.h>
 
-#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 #include <numbers>
-#include <string>
 
+#include "geometry/vector.h"
 #include "numerics/argument_check.h"
 #include "radiometry/spherical_harmonics.h"
 
@@ -14,9 +13,6 @@ namespace skinglow {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-/// Of a matrix from single-precision angles, with a margin.
-constexpr double orthogonality_tolerance = 1e-5;
 
 }  // namespace
 
@@ -37,14 +33,10 @@ glm::dvec3 Environment::direction(double u, double v) {
 }
 
 Environment Environment::rotated(const glm::dmat3& rotation) const {
-    const glm::dmat3 product = glm::transpose(rotation) * rotation;
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-            const double off = std::abs(product[i][j] - (i == j ? 1.0 : 0.0));
-            if (!(off <= orthogonality_tolerance)) {
-                refuse_argument("rotation", "off by " + to_text(off), "an orthogonal matrix, to 1e-5");
-            }
-        }
+    // Of a matrix from single-precision angles, with a margin.
+    if (!is_orthogonal(rotation, 1e-5)) {
+        refuse_argument("rotation", to_text(rotation[0]) + to_text(rotation[1]) + to_text(rotation[2]),
+                        "an orthogonal matrix, to 1e-5");
     }
     std::array<glm::dvec3, 9> turned{};
     turned[0] = coefficients_[0];

@@ -7,7 +7,6 @@
 #define HWY_TARGET_INCLUDE "radiometry/irradiance_kernels.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-#include "radiometry/kernel_vectors-inl.h"
 #include "radiometry/rectangle_kernel-inl.h"
 // clang-format on
 
@@ -18,6 +17,7 @@
 #include <limits>
 
 #include "radiometry/irradiance_sum.h"
+#include "radiometry/spread_integral.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skinglow::detail::HWY_NAMESPACE {
@@ -25,6 +25,26 @@ namespace skinglow::detail::HWY_NAMESPACE {
 HWY_INLINE Irradiance sun(const KernelLight& light, const Receivers& r) {
     const V cosine = dot(r.normal, set(light.reverse_axis));
     return {positive(cosine), cosine, hn::Abs(cosine) < set(light.sin_sun_radius)};
+}
+
+/// A sun that straddles the horizon of some points: cap_irradiance, with its small tangents alone.
+HWY_INLINE Irradiance sun_in_part(const KernelLight& light, const Receivers& r) {
+    const V one = set(1.0);
+    const V cosine = dot(r.normal, set(light.reverse_axis));
+    const V sine = hn::Sqrt(positive(hn::NegMulAdd(cosine, cosine, one)));
+    const V sin_radius = set(light.sin_sun_radius);
+    const V cos_radius = hn::Sqrt(one - sin_radius * sin_radius);
+    const M in_part = hn::Abs(cosine) < sin_radius;
+    const V rise = hn::Max(set(-1.0), hn::Min(hn::Neg(cos_radius * cosine) / (sin_radius * sine), one));
+    const V per_radius = sine * hn::Sqrt(hn::NegMulAdd(rise, rise, one)) / cos_radius;
+    const V tangent = per_radius * sin_radius;
+    V series = zero();  // tangent_series
+    for (const double term : {1.0 / 11, -1.0 / 9, 1.0 / 7, -1.0 / 5, 1.0 / 3})
+        series = hn::MulAdd(series, tangent * tangent, set(term));
+    const V rest = hn::NegMulAdd(per_radius * per_radius, series, one) * tangent;
+    const V value = hn::MulAdd(cosine, hn::Acos(d, rise), rest) * set(1.0 / pi);
+    return {hn::IfThenElse(in_part, positive(value), positive(cosine)), cosine,
+            hn::AndNot(tangent < set(small_tangent), in_part)};
 }
 
 /// A lit ball, or the point it shrinks to; a spot's is multiplied by its profile.
@@ -105,8 +125,11 @@ HWY_INLINE V3 plus(V3 total, const KernelLight& light, V value) {
             hn::MulAdd(set(light.strength.b), value, total.z)};
 }
 
+using KernelFunction = Irradiance(const KernelLight&, const Receivers&);
+
 /// Adds lights that one kernel serves.
-template <Irradiance (*kernel)(const KernelLight&, const Receivers&)>
+/// @tparam in_part  for vectors of points some of which are special to the kernel
+template <KernelFunction kernel, KernelFunction in_part = kernel>
 HWY_INLINE V3 add_run(V3 total, Run run, const Points& p, const Receivers& r) {
     const bool by_lane = p.sum.has_angular_weight();
     const KernelLight* light = run.data();
@@ -119,9 +142,9 @@ HWY_INLINE V3 add_run(V3 total, Run run, const Points& p, const Receivers& r) {
             total = plus(total, *light, e.value);
         }
         if (light == end) break;
-        const Irradiance e = kernel(*light, r);
+        const Irradiance e = in_part(*light, r);
         if (!by_lane) total = plus(total, *light, hn::IfThenZeroElse(e.special, e.value));
-        add_lanes(p, *light, e, r.normal);
+        if (by_lane || !hn::AllFalse(d, e.special)) add_lanes(p, *light, e, r.normal);
     }
     return total;
 }
@@ -147,7 +170,7 @@ HWY_INLINE void add_vector(const IrradianceSum& sum, const Runs& runs, const glm
     const Points p{sum, points, count, sums};
     const auto run = [&](KernelLight::Kernel kernel) { return runs[static_cast<std::size_t>(kernel)]; };
     V3 total{zero(), zero(), zero()};
-    total = add_run<sun>(total, run(KernelLight::Kernel::sun), p, r);
+    total = add_run<sun, sun_in_part>(total, run(KernelLight::Kernel::sun), p, r);
     total = add_run<point>(total, run(KernelLight::Kernel::point), p, r);
     total = add_run<spot>(total, run(KernelLight::Kernel::spot), p, r);
     total = add_run<rectangle>(total, run(KernelLight::Kernel::rectangle), p, r);

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "numerics/detail.h"
 #include "radiometry/area_angular_weight.h"
 #include "radiometry/prepared_light.h"
 

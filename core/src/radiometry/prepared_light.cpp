@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <numbers>
-
-#include "radiometry/cap_irradiance.h"
 
 namespace skinglow::detail {
 namespace {

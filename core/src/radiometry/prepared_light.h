@@ -10,7 +10,7 @@
 #include "geometry/vector.h"
 #include "numerics/detail.h"
 #include "radiometry/area_irradiance.h"
-#include "radiometry/spot_profile.h"
+#include "radiometry/cap_irradiance.h"
 
 namespace skinglow::detail {
 

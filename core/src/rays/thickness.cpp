@@ -24,16 +24,9 @@ constexpr int sky_rays = 64;            // resolution 1/64, for comparison with 
 
 void validate(const ThicknessOptions& options) {
     require_positive("unit_mm", options.unit_mm);
-    if (options.rays < 1 || options.rays > max_rays) {
-        refuse_argument("rays", std::to_string(options.rays), "1 to " + std::to_string(max_rays));
-    }
-    if (!(options.cone_half_angle >= 0 && options.cone_half_angle <= max_cone_half_angle)) {
-        refuse_argument("cone_half_angle", to_text(options.cone_half_angle),
-                        "0 to " + to_text(max_cone_half_angle) + " radians");
-    }
-    if (!(options.min_sky_visibility >= 0 && options.min_sky_visibility <= 1)) {
-        refuse_argument("min_sky_visibility", to_text(options.min_sky_visibility), "0 to 1");
-    }
+    require_between("rays", options.rays, 1, max_rays);
+    require_between("cone_half_angle", options.cone_half_angle, 0.0, max_cone_half_angle, " radians");
+    require_between("min_sky_visibility", options.min_sky_visibility, 0, 1);
     if (options.threads < 0) refuse_argument("threads", std::to_string(options.threads), "0 (all) or more");
 }
 
@@ -73,7 +66,7 @@ double measure(const WeldedMesh& mesh, const RayScene& scene, std::span<const st
                std::uint32_t welded, std::span<const glm::dvec3> directions,
                std::vector<WeightedValue>& samples) {
     const double max_diameter = mesh.diagonal() / mesh.scale();
-    const glm::dvec3 inward = -mesh.vertex_normal(welded);
+    const glm::dvec3 inward = -mesh.normals()[welded];
     if (inward == glm::dvec3(0)) return no_exit;
     const glm::dmat3 frame = frame_around(inward);
     samples.clear();

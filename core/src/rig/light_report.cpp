@@ -58,10 +58,7 @@ std::vector<LightReportEntry> light_report(const PreparedRig& rig, const glm::dv
                                            const std::optional<std::vector<std::size_t>>& kept) {
     require_finite("point", point);
     const std::optional<glm::dvec3> facing = normal ? std::optional(unit_normal(*normal)) : std::nullopt;
-    if (!occluded.empty() && occluded.size() != rig.size()) {
-        refuse_argument("number of occluded flags", std::to_string(occluded.size()),
-                        "one per light (" + std::to_string(rig.size()) + ")");
-    }
+    if (!occluded.empty()) require_count("occluded", occluded.size(), rig.size(), "one per light");
     const std::vector<bool> is_kept = flags_of(kept, rig.size());
     std::vector<LightReportEntry> report;
     report.reserve(rig.size());

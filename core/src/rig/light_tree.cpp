@@ -1,17 +1,57 @@
-#include "rig/light_tree.h"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 
 #include "geometry/vector.h"
 #include "numerics/argument_check.h"
 #include "numerics/compensated_sum.h"
 #include "rig/light_bounds.h"
+#include "rig/rig_data.h"
 
-namespace skinglow::detail {
+namespace skinglow {
+namespace detail {
+
+/// Lights in a binary tree over their positions, so that for each object only those are looked at that may
+/// matter. A node knows the box its lights stand in, a bound of what they give together, and a cone that holds
+/// all that they shine into (as in A. Conty Estevez and C. Kulla, "Importance Sampling of Many Lights with
+/// Adaptive Tree Splitting", HPG 2018, where such nodes serve sampling; here they bound what is left out).
+class LightTree {
+  public:
+    /// @param lights  have to outlive the tree
+    explicit LightTree(std::span<const RigLight> lights);
+
+    /// Culls the root, then splits the node with the largest bound until the culled remainder is within
+    /// tolerance. See PreparedRig.
+    CullingResult cull(const Box& box, double tolerance) const;
+
+  private:
+    static constexpr std::size_t no_node = std::numeric_limits<std::size_t>::max();
+    struct Node {
+        std::size_t begin, end;      ///< leaves of it, in leaves_
+        std::size_t left = no_node;  ///< no_node: one leaf
+        std::size_t right = no_node;
+        Box extent;                   ///< all that glows
+        glm::dvec3 at_distance{0.0};  ///< sum of upper bounds at a distance of 1
+        glm::dvec3 anywhere{0.0};     ///< sum of upper bounds at any distance
+        NormalCone cone;              ///< that they shine into
+    };
+
+    std::size_t build(std::size_t begin, std::size_t end);
+    Node node_of_leaf(std::size_t leaf) const;
+    glm::dvec3 bound(const Node& node, const Box& box) const;
+    std::vector<std::size_t> lights_of(const Node& node) const;
+
+    std::vector<std::size_t> off_;         ///< indices of lights that give nothing
+    std::vector<const RigLight*> leaves_;  ///< suns last
+    std::vector<Node> nodes_;              ///< of the tree, then one for each sun
+    std::size_t first_sun_ = 0;            ///< in nodes_
+    std::size_t root_ = no_node;
+};
+
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -34,7 +74,7 @@ glm::dvec3 position(const RigLight* leaf) {
 
 struct Candidate {
     double key;  ///< largest channel of the bound
-    std::int64_t node;
+    std::size_t node;
     glm::dvec3 bound;
     bool operator<(const Candidate& other) const { return key < other.key; }
 };
@@ -42,7 +82,7 @@ struct Candidate {
 /// Nodes that are culled, the largest bound on top, and the sum of their bounds.
 class Culled {
   public:
-    void add(std::int64_t node, const glm::dvec3& bound) {
+    void add(std::size_t node, const glm::dvec3& bound) {
         candidates_.push_back({max_abs(bound), node, bound});
         std::push_heap(candidates_.begin(), candidates_.end());
         total_ += bound;
@@ -127,10 +167,10 @@ LightTree::Node LightTree::node_of_leaf(std::size_t leaf) const {
     return node;
 }
 
-std::int64_t LightTree::build(std::size_t begin, std::size_t end) {
+std::size_t LightTree::build(std::size_t begin, std::size_t end) {
     if (end - begin == 1) {
         nodes_.push_back(node_of_leaf(begin));
-        return static_cast<std::int64_t>(nodes_.size()) - 1;
+        return nodes_.size() - 1;
     }
     Box box{position(leaves_[begin]), position(leaves_[begin])};
     for (std::size_t i = begin; i < end; ++i) {
@@ -143,10 +183,10 @@ std::int64_t LightTree::build(std::size_t begin, std::size_t end) {
     std::nth_element(at(begin), at(median), at(end), [axis](const RigLight* a, const RigLight* b) {
         return position(a)[axis] < position(b)[axis];
     });
-    const std::int64_t left = build(begin, median);
-    const std::int64_t right = build(median, end);
-    const Node& a = node(left);
-    const Node& b = node(right);
+    const std::size_t left = build(begin, median);
+    const std::size_t right = build(median, end);
+    const Node& a = nodes_[left];
+    const Node& b = nodes_[right];
     nodes_.push_back({.begin = begin,
                       .end = end,
                       .left = left,
@@ -155,11 +195,11 @@ std::int64_t LightTree::build(std::size_t begin, std::size_t end) {
                       .at_distance = a.at_distance + b.at_distance,
                       .anywhere = a.anywhere + b.anywhere,
                       .cone = cone_around(a.cone, b.cone)});
-    return static_cast<std::int64_t>(nodes_.size()) - 1;
+    return nodes_.size() - 1;
 }
 
 glm::dvec3 LightTree::bound(const Node& node, const Box& box) const {
-    if (node.left < 0) {
+    if (node.left == no_node) {
         const RigLight& leaf = *leaves_[node.begin];
         return glm::abs(leaf.scaled(irradiance_range(leaf.light, box).max));
     }
@@ -183,14 +223,14 @@ CullingResult LightTree::cull(const Box& box, double tolerance) const {
     validate(box);
     require_not_negative("tolerance", tolerance);
     Culled culled;
-    const auto add = [&](std::int64_t index) { culled.add(index, bound(node(index), box)); };
-    if (root_ >= 0) add(root_);
-    for (std::size_t i = first_sun_; i < nodes_.size(); ++i) add(static_cast<std::int64_t>(i));
+    const auto add = [&](std::size_t node) { culled.add(node, bound(nodes_[node], box)); };
+    if (root_ != no_node) add(root_);
+    for (std::size_t i = first_sun_; i < nodes_.size(); ++i) add(i);
 
     CullingResult result;
     while (culled.exceeds(tolerance * (1 - 1e-12))) {
-        const Node& largest = node(culled.take_largest().node);
-        if (largest.left < 0) {
+        const Node& largest = nodes_[culled.take_largest().node];
+        if (largest.left == no_node) {
             result.kept.push_back(leaves_[largest.begin]->index);
         } else {
             add(largest.left);
@@ -202,9 +242,25 @@ CullingResult LightTree::cull(const Box& box, double tolerance) const {
     if (!off_.empty()) result.dropped.push_back({off_, DropReason::off, glm::dvec3(0.0)});
     for (const Candidate& candidate : culled.candidates()) {
         const DropReason reason = candidate.key > 0.0 ? DropReason::negligible : DropReason::unreachable;
-        result.dropped.push_back({lights_of(node(candidate.node)), reason, candidate.bound});
+        result.dropped.push_back({lights_of(nodes_[candidate.node]), reason, candidate.bound});
     }
     return result;
 }
 
-}  // namespace skinglow::detail
+const LightTree& RigData::tree() const {
+    std::call_once(tree_made_, [this] { tree_ = std::make_shared<const LightTree>(prepared); });
+    return *tree_;
+}
+
+}  // namespace detail
+
+std::string_view to_text(DropReason reason) {
+    constexpr std::array<std::string_view, 3> names = {"off", "unreachable", "negligible"};
+    return names.at(static_cast<std::size_t>(reason));
+}
+
+CullingResult PreparedRig::cull(const Box& box, double tolerance) const {
+    return data_->tree().cull(box, tolerance);
+}
+
+}  // namespace skinglow

@@ -2,6 +2,7 @@
 
 #include <skinglow/light.h>
 #include <skinglow/rig.h>
+#include <skinglow/surface_lighting.h>
 
 #include <glm/vec3.hpp>
 #include <memory>
@@ -17,10 +18,6 @@ class LightTree;
 
 struct RigData {
     explicit RigData(std::vector<Light> given);
-    RigData(const RigData&) = delete;
-    RigData& operator=(const RigData&) = delete;
-    ~RigData();
-
     /// Made by the first call.
     const LightTree& tree() const;
 
@@ -29,7 +26,7 @@ struct RigData {
 
   private:
     mutable std::once_flag tree_made_;
-    mutable std::unique_ptr<const LightTree> tree_;
+    mutable std::shared_ptr<const LightTree> tree_;
 };
 
 /// Throws std::invalid_argument unless there are as many normals as points, all finite; names the entry.
@@ -37,5 +34,11 @@ void require_surface(std::span<const glm::dvec3> points, std::span<const glm::dv
 
 /// Unit vector of a normal of any length; throws std::invalid_argument where it is 0 or not finite.
 glm::dvec3 unit_normal(const glm::dvec3& normal);
+
+/// A light as terms: one, or for an area light columns x rows tiles (of an ellipse 1, 2, 4 or 8).
+/// @param strength  power times color
+/// @param center    of the object, where a ball is exact
+std::vector<SurfaceTerm> surface_terms(const PreparedLight& light, const glm::dvec3& strength,
+                                       const glm::dvec3& center, int columns = 1, int rows = 1);
 
 }  // namespace skinglow::detail

@@ -5,7 +5,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
-#include <string>
 
 #include "geometry/vector.h"
 #include "numerics/argument_check.h"
@@ -13,7 +12,6 @@
 #include "radiometry/spherical_harmonics.h"
 #include "rig/light_bounds.h"
 #include "rig/rig_data.h"
-#include "rig/surface_term.h"
 
 namespace skinglow {
 namespace {

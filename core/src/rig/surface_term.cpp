@@ -1,5 +1,3 @@
-#include "rig/surface_term.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -7,6 +5,7 @@
 #include <numbers>
 
 #include "geometry/vector.h"
+#include "rig/rig_data.h"
 
 namespace skinglow {
 namespace {

@@ -20,7 +20,6 @@ class LocatedJson {
     explicit LocatedJson(const std::filesystem::path& path);
 
     const nlohmann::json& value() const { return value_; }
-    const std::filesystem::path& path() const { return path_; }
 
     /// Refuses the value of that name: throws FileError "file ...: key NAME (line N): what: remedy".
     [[noreturn]] void refuse(const std::string& name, std::string_view what, std::string_view remedy) const;

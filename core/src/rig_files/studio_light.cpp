@@ -1,14 +1,10 @@
 #include "rig_files/studio_light.h"
 
-#include <algorithm>
-#include <array>
-#include <glm/common.hpp>
-#include <glm/matrix.hpp>
-#include <glm/trigonometric.hpp>
-#include <glm/vector_relational.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <string_view>
 
+#include "geometry/vector.h"
 #include "numerics/argument_check.h"
 #include "rig_files/file_error.h"
 #include "rig_files/parse_number.h"
@@ -69,31 +65,19 @@ class StudioLightText {
     std::map<std::string, double> numbers_;
 };
 
-void require_orthonormal(const glm::dmat3& camera) {
-    const glm::dmat3 error = glm::transpose(camera) * camera - glm::dmat3(1.0);
-    for (int column = 0; column < 3; ++column) {
-        if (!glm::all(glm::lessThan(glm::abs(error[column]), glm::dvec3(1e-6)))) {  // NaN is not below
-            refuse_argument("camera", to_text(camera[0]) + to_text(camera[1]) + to_text(camera[2]),
-                            "three perpendicular axes of length 1");
-        }
-    }
-}
-
 }  // namespace
 
 glm::dmat3 camera_axes(const glm::dvec3& euler_xyz) {
     require_finite("camera rotation", euler_xyz);
-    const glm::dvec3 c = glm::cos(euler_xyz);
-    const glm::dvec3 s = glm::sin(euler_xyz);
     // About X first, then Y, then Z; a camera of rotation 0 looks along -Z with +Y up.
-    const glm::dmat3 about_x{{1.0, 0.0, 0.0}, {0.0, c.x, s.x}, {0.0, -s.x, c.x}};
-    const glm::dmat3 about_y{{c.y, 0.0, -s.y}, {0.0, 1.0, 0.0}, {s.y, 0.0, c.y}};
-    const glm::dmat3 about_z{{c.z, s.z, 0.0}, {-s.z, c.z, 0.0}, {0.0, 0.0, 1.0}};
-    return about_z * about_y * about_x;
+    return glm::mat3_cast(glm::dquat(euler_xyz));
 }
 
 StudioLight read_studio_light(const std::filesystem::path& path, const glm::dmat3& camera) {
-    require_orthonormal(camera);
+    if (!is_orthogonal(camera, 1e-6)) {
+        refuse_argument("camera", to_text(camera[0]) + to_text(camera[1]) + to_text(camera[2]),
+                        "three perpendicular axes of length 1");
+    }
     const StudioLightText text(path);
     StudioLight studio;
     if (text.color("light_ambient") != glm::dvec3(0.0)) {

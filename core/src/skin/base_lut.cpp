@@ -1,6 +1,8 @@
 #include <skinglow/lut.h>
+#include <skinglow/spectrum.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -10,6 +12,19 @@ namespace skinglow {
 namespace {
 
 constexpr std::array<std::string_view, 3> mode_names = {"existing", "paper", "physical"};
+
+struct ProfileTerm {
+    double variance;    // mm^2
+    glm::dvec3 weight;  // linear RGB, each column sums to 1
+};
+
+// d'Eon and Luebke 2007, the table of section 14.4.4.
+constexpr std::array<ProfileTerm, 6> skin_profile = {{{0.0064, {0.233, 0.455, 0.649}},
+                                                      {0.0484, {0.100, 0.336, 0.344}},
+                                                      {0.187, {0.118, 0.198, 0.000}},
+                                                      {0.567, {0.113, 0.007, 0.007}},
+                                                      {1.99, {0.358, 0.004, 0.000}},
+                                                      {7.41, {0.078, 0.000, 0.000}}}};
 
 }  // namespace
 
@@ -26,10 +41,7 @@ LutMode lut_mode(std::string_view name) {
 
 LutAxis::LutAxis(std::size_t size, double max_thickness_mm)
     : size_(size), max_thickness_mm_(require_positive("max_thickness_mm", max_thickness_mm)) {
-    if (size < 1 || size > max_lut_size) {
-        refuse_argument("table size", std::to_string(size),
-                        "1 to " + std::to_string(max_lut_size) + " entries");
-    }
+    require_between("table size", size, std::size_t{1}, max_lut_size, " entries");
 }
 
 double LutAxis::thickness_mm(std::size_t i) const {
@@ -71,6 +83,47 @@ BaseLut::BaseLut(std::vector<glm::dmat3> matrices, double max_thickness_mm)
             require_finite(name, matrices_[i][column]);
         }
     }
+}
+
+std::vector<glm::dvec3> recolor(const BaseLut& base, const glm::dvec3& weight) {
+    std::vector<glm::dvec3> colors(base.size());
+    recolor(base, weight, colors);
+    return colors;
+}
+
+void recolor(const BaseLut& base, const glm::dvec3& weight, std::span<glm::dvec3> out) {
+    require_finite("weight", weight);
+    require_count("output", out.size(), base.size(), "the base's");
+    const std::span<const glm::dmat3> matrices = base.matrices();
+    // 0 * value is 0 for every finite value and NaN for the others: one sum checks the table without a branch
+    // a texel.
+    glm::dvec3 overflow(0.0);
+    for (std::size_t i = 0; i < matrices.size(); ++i) {
+        out[i] = matrices[i] * weight;
+        overflow += 0.0 * out[i];
+    }
+    if (overflow != glm::dvec3(0.0)) {
+        refuse_argument("weight", to_text(weight), "one whose product with the base lookup stays finite");
+    }
+}
+
+std::vector<glm::dvec3> six_gaussian_lookup(const LutAxis& axis) {
+    std::vector<glm::dvec3> colors(axis.size(), glm::dvec3(0.0));
+    for (std::size_t i = 0; i < axis.size(); ++i) {
+        const double thickness = axis.thickness_mm(i);
+        for (const ProfileTerm& term : skin_profile) {
+            // Divided before multiplied: the square of a thickness of 1e200 mm would overflow.
+            colors[i] += term.weight * std::exp(-thickness * (thickness / term.variance));
+        }
+    }
+    return colors;
+}
+
+BaseLut six_gaussian_base(const LutAxis& axis) {
+    std::vector<double> brightness;
+    brightness.reserve(axis.size());
+    for (const glm::dvec3& color : six_gaussian_lookup(axis)) brightness.push_back(luminance(color));
+    return BaseLut::from_gray(brightness, axis.max_thickness_mm());
 }
 
 }  // namespace skinglow

@@ -55,10 +55,7 @@ constexpr std::array<TissuePreset, 9> presets = {{
 }};
 
 double require_wavelength(double wavelength_nm) {
-    if (!(wavelength_nm >= min_wavelength_nm && wavelength_nm <= max_wavelength_nm)) {
-        refuse_argument("wavelength_nm", to_text(wavelength_nm), "380 to 780 nm");
-    }
-    return wavelength_nm;
+    return require_between("wavelength_nm", wavelength_nm, min_wavelength_nm, max_wavelength_nm, " nm");
 }
 
 /// Rayleigh and Mie part of the reduced scattering, S. L. Jacques, "Optical properties of biological tissues:
@@ -163,9 +160,7 @@ const TissuePreset& tissue_preset(std::string_view name) {
 
 double blood_absorption(double wavelength_nm, double oxygen_saturation) {
     require_wavelength(wavelength_nm);
-    if (!(oxygen_saturation >= 0.0 && oxygen_saturation <= 1.0)) {
-        refuse_argument("oxygen_saturation", to_text(oxygen_saturation), "0 to 1");
-    }
+    require_between("oxygen_saturation", oxygen_saturation, 0, 1);
     // The tables are even: 380 to 780 nm in steps of 2.
     constexpr double step_nm = 2.0;
     static_assert(tables::hemoglobin[0][0] == min_wavelength_nm && tables::hemoglobin[1][0] == 382.0);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "numerics/argument_check.h"
@@ -44,10 +43,7 @@ double matrix_error(const glm::dmat3& matrix, const glm::dmat3& exact) {
 
 SkinLut base_lut_report(const Tissue& tissue, std::size_t size, double max_thickness_mm, double tolerance,
                         int threads) {
-    if (!(tolerance >= min_lut_tolerance && tolerance <= max_lut_tolerance)) {
-        refuse_argument("tolerance", to_text(tolerance),
-                        to_text(min_lut_tolerance) + " to " + to_text(max_lut_tolerance));
-    }
+    require_between("tolerance", tolerance, min_lut_tolerance, max_lut_tolerance);
     const auto* choice = std::find_if(stream_choices.begin(), stream_choices.end(),
                                       [&](const auto& entry) { return entry.estimated_error <= tolerance; });
     return {reference_lut(tissue, size, max_thickness_mm, choice->streams, threads), *choice};
@@ -75,10 +71,7 @@ BaseLut reference_lut(const Tissue& tissue, std::size_t size, double max_thickne
 }
 
 double lut_error(const BaseLut& lut, const BaseLut& exact) {
-    if (lut.size() != exact.size()) {
-        refuse_argument("size of the table", std::to_string(lut.size()),
-                        "the exact one's, " + std::to_string(exact.size()));
-    }
+    require_count("table", lut.size(), exact.size(), "the exact one's");
     double error = 0.0;  // tables are finite: nothing here is NaN
     for (std::size_t i = 0; i < lut.size(); ++i) {
         error = std::max(error, matrix_error(lut.matrices()[i], exact.matrices()[i]));

@@ -7,19 +7,12 @@
 namespace skinglow::detail {
 namespace {
 
-template <ArgumentName Name>
-void check_index(const Name& name, double n) {
-    if (!(n >= 1 && n <= max_refractive_index)) {
-        refuse_value(name, n, "1 to " + to_text(max_refractive_index));
-    }
-}
-
 void check_layer(std::span<const Layer> layers, std::size_t i) {
     const Layer& layer = layers[i];
     const auto field = [i](const char* name) {
         return [i, name] { return entry_name("layers", i)() + "." + name; };
     };
-    check_index(field("refractive_index"), layer.refractive_index);
+    require_between(field("refractive_index"), layer.refractive_index, 1.0, max_refractive_index);
     require_not_negative(field("absorption"), layer.absorption);
     require_not_negative(field("scattering"), layer.scattering);
     if (!std::isfinite(layer.absorption + layer.scattering)) {
@@ -44,8 +37,8 @@ void check_arguments(std::span<const Layer> layers, Incidence incidence, double 
                      int streams) {
     if (layers.empty()) refuse_argument("layers", "empty", "one layer or more");
     for (std::size_t i = 0; i < layers.size(); ++i) check_layer(layers, i);
-    check_index("n_above", n_above);
-    check_index("n_below", n_below);
+    require_between("n_above", n_above, 1.0, max_refractive_index);
+    require_between("n_below", n_below, 1.0, max_refractive_index);
     if (incidence.kind == Incidence::Kind::oblique && !(incidence.mu0 > 0 && incidence.mu0 <= 1)) {
         refuse_argument("incidence", to_text(incidence.mu0),
                         R"("normal", "diffuse" or a cosine above 0, at most 1)");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 #include "numerics/quadrature.h"
 
@@ -34,6 +35,34 @@ std::vector<int> streams_by_interval(const std::vector<double>& index, int strea
 }
 
 }  // namespace
+
+AngularBasis::AngularBasis(Eigen::VectorXd cosine_, const Eigen::VectorXd& weight)
+    : cosine(std::move(cosine_)), weight_sum(weight.sum()) {
+    const Eigen::Index n = cosine.size();
+    even.resize(n, n);
+    odd.resize(n, n);
+    recurrence.resize(2 * n - 1);
+    even.col(0) = (weight / weight_sum).cwiseSqrt();
+    Eigen::VectorXd next(n);
+    Eigen::VectorXd overlap(n);
+    // The three-term recurrence alone loses orthogonality at high degree: each polynomial is orthogonalized once
+    // more against all before it of its own parity ("twice is enough", Giraud et al. 2005, Numer Math 101:87).
+    for (Eigen::Index degree = 1; degree < 2 * n; ++degree) {
+        const Eigen::Index i = degree / 2;
+        const bool is_odd = degree % 2 == 1;
+        Eigen::MatrixXd& own = is_odd ? odd : even;
+        const Eigen::MatrixXd& other = is_odd ? even : odd;
+        next = cosine.cwiseProduct(other.col(is_odd ? i : i - 1));
+        if (i > 0) {
+            next -= recurrence[degree - 2] * own.col(i - 1);
+            overlap.head(i).noalias() = own.leftCols(i).transpose() * next;
+            next.noalias() -= own.leftCols(i) * overlap.head(i);
+        }
+        const double norm = next.norm();
+        recurrence[degree - 1] = norm;
+        own.col(i) = next / norm;
+    }
+}
 
 StreamGrid::StreamGrid(std::span<const Layer> layers, Incidence incidence, double n_above, double n_below,
                        int streams)
@@ -113,19 +142,19 @@ void StreamGrid::add_interval(double n_low, double n_high, int count, bool beam_
     if (!beam_here) {
         add(gauss_rule(static_cast<std::size_t>(count)), 0, steepest);
     } else if (steepest - beam_cosine <= narrow) {
-        add(radau_rule(static_cast<std::size_t>(count), FixedNode::at_one), 0, steepest);
+        add(gauss_rule(static_cast<std::size_t>(count), FixedNode::at_one), 0, steepest);
     } else {
         // A rule on either side that ends at the beam: both are smooth there, and the beam's stream is
         // shared.
         const int above =
             std::clamp(static_cast<int>(std::lround((count + 1) * (1 - beam_cosine / steepest))), 2,
                        std::max(2, count - 1));
-        add(radau_rule(static_cast<std::size_t>(std::max(2, count + 1 - above)), FixedNode::at_one), 0,
+        add(gauss_rule(static_cast<std::size_t>(std::max(2, count + 1 - above)), FixedNode::at_one), 0,
             beam_cosine);
         const Stream shared = added.back();
         added.pop_back();
         const std::size_t first = added.size();
-        add(radau_rule(static_cast<std::size_t>(above), FixedNode::at_zero), beam_cosine, steepest);
+        add(gauss_rule(static_cast<std::size_t>(above), FixedNode::at_zero), beam_cosine, steepest);
         added[first].cosine = beam_cosine;
         added[first].flux_weight += shared.flux_weight;
     }

@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "radiometry/spot_profile.h"
 #include "random_lights.h"
 
 using namespace skinglow;

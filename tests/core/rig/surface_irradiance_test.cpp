@@ -115,6 +115,33 @@ TEST(SurfaceIrradiance, ARectangleIsExactToRoundingAndAWrongArcTangentWouldShow)
     });
 }
 
+TEST(SurfaceIrradiance, ASunAcrossTheHorizonIsExactToRounding) {
+    RandomScene random(10);
+    for (int trial = 0; trial < 60; ++trial) {
+        FlatLight light;
+        light.kind = LightKind::sun;
+        light.sun_angle = random.decades(1e-7, 0.3);  // those up to 0.1 by the kernel's own formula
+        const double radius = std::sin(0.5 * light.sun_angle);
+        const glm::dvec3 across = random.unit_vector();
+        light.direction = glm::normalize(glm::cross(across, random.unit_vector()));
+        Surface surface;
+        for (int i = 0; i < 61; ++i) {
+            const double cosine = random.between(-1.2, 1.2) * radius;
+            surface.points.emplace_back(0.0);
+            surface.normals.push_back(std::sqrt(1 - cosine * cosine) * across - cosine * light.direction);
+        }
+        for_each_vector_target([&] {
+            const auto all = surface_irradiance({light}, surface.points, surface.normals);
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                const double one = irradiance_at({light}, surface.points[i], surface.normals[i]).g;
+                // A cosine that is rounded otherwise, and the formula.
+                EXPECT_NEAR(all[i].g, one, light.power * (1e-15 + 2e-15 * radius))
+                    << light.sun_angle << " " << i;
+            }
+        });
+    }
+}
+
 TEST(SurfaceIrradiance, AddsLightsAndEnvironmentOnAnyNumberOfThreads) {
     RandomScene random(8);
     const Surface surface = random_surface(random, 1000);

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "random_lights.h"
-#include "rig/surface_term.h"
+#include "rig/rig_data.h"
 
 using namespace skinglow;
 

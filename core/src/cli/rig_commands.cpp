@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/output_text.h"
 #include "cli/rig_options.h"
+#include "files/atomic_file.h"
 #include "numerics/argument_check.h"
 
 namespace skinglow::cli {
@@ -15,7 +16,8 @@ using nlohmann::ordered_json;
 
 struct Options {
     RigOptions rig;
-    bool json = false;
+    bool json = false;   ///< of weights
+    std::string output;  ///< of rig
 };
 
 /// What --json prints, and the table shows.
@@ -91,6 +93,22 @@ void add_weights_command(CLI::App& program) {
     command->add_flag("--json", options->json, "Print JSON with every digit instead of a table");
     command->footer("Example: skinglow weights table1.json --point 0 0 0");
     command->callback([options] { run(*options); });
+}
+
+void add_rig_command(CLI::App& program) {
+    CLI::App* command = program.add_subcommand(
+        "rig", "Write lights as a rig file: a studio light of Blender's, or a rig with numbers changed");
+    auto options = std::make_shared<Options>();
+    options->rig.add_to(*command, RigNeed::required);
+    command->add_option("-o,--output", options->output, "Rig file to write (JSON, docs/rig_format.md)")
+        ->required();
+    command->footer("Example: skinglow rig rim.sl --camera-rotation 90 0 35 -o rim.json");
+    command->callback([options] {
+        refuse_overwriting({options->output}, {options->rig.path()});
+        const LightRig rig = options->rig.read();
+        write_light_rig(options->output, rig);
+        std::cout << options->output << ": " << rig.lights.size() << " lights\n";
+    });
 }
 
 }  // namespace skinglow::cli

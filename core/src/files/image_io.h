@@ -2,15 +2,17 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "numerics/detail.h"
 
-/// Opening images: what the readers of this folder share. Not for use outside of it.
+/// Images through OpenImageIO: what the readers and writers of this folder share. Not for use outside of it.
 namespace skinglow::detail {
 
 /// An image file open for reading, its size checked.
@@ -38,5 +40,31 @@ class ImageInput {
     std::unique_ptr<OIIO::ImageInput> input_;
     int part_ = 0;
 };
+
+/// Where an image has its color: a part and channels in it; all three alike for gray.
+struct ColorChannels {
+    int part = 0;
+    std::array<int, 3> rgb{};
+    std::optional<int> alpha;
+    std::vector<std::string> others;  ///< names of further layers of color, which are left aside
+};
+
+/// Finds the color among all parts and layers: the only one, the one named Combined (Blender's multilayer
+/// EXR), or the one whose channels are plainly R, G and B; else a channel alone as gray, with alpha or
+/// without.
+/// @throws FileError where there is none or several could be meant, naming them
+ColorChannels find_color(ImageInput& input);
+
+/// Index of a channel in a part.
+std::optional<int> find_channel(const OIIO::ImageSpec& spec, std::string_view name);
+
+/// The bytes of an image file.
+/// @param path  its extension says the format
+/// @param spec  size, channels and the type of the pixels
+/// @param text  goes into the header
+/// @param pixels  rows from the top
+/// @throws FileError naming the file
+std::string image_bytes(const std::filesystem::path& path, OIIO::ImageSpec spec,
+                        const std::map<std::string, std::string>& text, const void* pixels);
 
 }  // namespace skinglow::detail

@@ -1,4 +1,4 @@
-#include "rays/light_sampling.h"
+#include "rays/visible_fraction.h"
 
 #include <algorithm>
 #include <cmath>
