@@ -1,11 +1,12 @@
 """Takes the first pictures of docs/blender.md: a full Blender in a virtual display, a click on the panel's button.
 
 Usage: python scripts/panel_pictures [BLENDER [FOLDER]]
-Needs Xvfb, the core as a folder, made by scripts/build, and the demo's head, which is downloaded. Only for Blender
-before 4.2: later versions take black screenshots in Xvfb.
+Needs a full Blender, Xvfb, the core as a folder, made by scripts/build, and the demo's head, which is downloaded; from
+Blender 4.2 on also scrot. BLENDER may have options: "blender --gpu-backend opengl" where there is no GPU.
 """
 
 import os
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -26,7 +27,8 @@ from progress import Progress  # noqa: E402
 def main(blender: str = "blender", folder: str = str(PROJECT / "docs" / "images")) -> None:
     head = find(None, None, Progress(PROJECT / "build" / "panel_pictures.log"))
     with tempfile.TemporaryDirectory() as profile:
-        command = ["xvfb-run", "-a", "-s", "-screen 0 {}x{}x24".format(*SCREEN), blender, "--factory-startup"]
+        command = ["xvfb-run", "-a", "-s", "-screen 0 {}x{}x24".format(*SCREEN), *shlex.split(blender)]
+        command += ["--factory-startup"]
         command += ["--enable-event-simulate", "--window-geometry", "0", "0", *map(str, SCREEN)]
         command += ["-P", str(HERE / "panel_window.py"), "--", head.mesh, str(DEMO)]
         command += [str(PROJECT / "blender_addon"), str(PROJECT / "build" / "envs" / "site")]

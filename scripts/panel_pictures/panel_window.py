@@ -65,5 +65,6 @@ def _look_at(head: bpy.types.Object, point: object, height: float) -> None:
     region.view_distance = 1.6 * height
 
 
+bpy.context.preferences.view.show_splash = False  # it would take the first click
 sb.register()
 run_steps(steps)

@@ -1,5 +1,6 @@
 """Runs in a Blender with a window: user actions as steps, between which Blender draws."""
 
+import subprocess
 import sys
 import time
 import traceback
@@ -107,5 +108,8 @@ def wait_for(true: Callable[[], bool], seconds: float, what: str) -> Iterator[fl
 
 
 def save_picture(path: str) -> None:
-    """Saves a screenshot of the window as PNG."""
-    bpy.ops.screen.screenshot(filepath=path)
+    """Saves a screenshot of the window as PNG; by scrot from 4.2 on, whose own are black in Xvfb."""
+    if bpy.app.version >= (4, 2, 0):
+        subprocess.run(["scrot", "-o", path], check=True)
+    else:
+        bpy.ops.screen.screenshot(filepath=path)
