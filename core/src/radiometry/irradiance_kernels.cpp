@@ -189,9 +189,9 @@ void add_irradiance(const IrradianceSum& sum, std::span<const glm::dvec3> points
         const std::span<const KernelLight> lights = rest.first(std::min(rest.size(), lights_at_once));
         rest = rest.subspan(lights.size());
         Runs runs;
-        for (std::size_t i = 0; i < lights.size(); ++i) {
-            Run& run = runs[static_cast<std::size_t>(lights[i].kernel)];
-            run = {run.empty() ? &lights[i] : run.data(), run.size() + 1};
+        for (const KernelLight& light : lights) {
+            Run& run = runs[static_cast<std::size_t>(light.kernel)];
+            run = {run.empty() ? &light : run.data(), run.size() + 1};
         }
         std::size_t i = 0;
         for (; i + lanes <= points.size(); i += lanes)
