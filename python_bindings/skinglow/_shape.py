@@ -143,7 +143,7 @@ class Shape:
 
         At a vertex it is the mean about it, weighted by the hat function of its triangles.
 
-        irradiance  (v, 3), or (v,) for all channels alike: at each vertex, W/m^2, finite; linear on triangles, diffuse
+        irradiance  (v, 3), or (v,) for all channels alike: at each vertex, W/m^2, up to 1e30; linear on triangles
         """
         return self._shape.exitance(irradiance, progress)
 

@@ -81,11 +81,13 @@ def main() -> None:
 
     images = out if options.no_docs else PROJECT / "docs" / "images"
     views = {}
+    cost = tables.costs(lit[0])
+    walks: dict[str, tuple[float, float]] = {}
     sections = {
         "errors": tables.errors_table(measured),
         "noise": tables.noise_table(measured),
         "surface": tables.surface_table(lit),
-        "cost": tables.costs_table(tables.costs(lit[0])),
+        "cost": tables.costs_table(cost),
     }
     for head, (one, exitance) in shown.items():
         attributes = {
@@ -100,10 +102,8 @@ def main() -> None:
         pictures.figure(images / f"shape_{head}.png", found, METHODS)
         views[head] = pictures.view_dependence(found)
         error = next(m for m in measured if m.case is one).shape[tables.CELLS_MM[0]].back.together
-        seconds = tables.walk_seconds(found, error)
-        progress.say(
-            f"{head}: Cycles' noise is {error:.1f} % after {seconds:.0f} CPU s of {options.size} pixels squared"
-        )
+        walks[head] = (error, tables.walk_seconds(found, error))
+    sections["time"] = tables.time_table(walks, cost[0])
     sections["view"] = tables.view_table(views)
     print("\n\n".join(sections.values()), flush=True)
     if not options.no_docs:

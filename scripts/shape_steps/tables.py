@@ -202,6 +202,16 @@ def walk_seconds(pictures: Pictures, percent_error: float) -> float:
     return pictures.seconds["front-walk_1"] * (noise / percent_error) ** 2
 
 
+def time_table(walks: dict[str, tuple[float, float]], cost: Cost) -> str:
+    """Walks: error of the shape in percent, and CPU seconds until Cycles' noise in one view is that, by head."""
+    heading = ["Head", "Error, %", "Cycles' walk to that noise, CPU s", "Over a moved light", "Over the first light"]
+    rows = []
+    for head, (off, seconds) in walks.items():
+        first = seconds / (cost.prepare + cost.move)
+        rows.append([head, percent(off), f"{seconds:.0f}", f"{seconds / cost.move:,.0f}", f"{first:.0f}"])
+    return page.table(heading, rows)
+
+
 def surface_table(cases: list[Lit]) -> str:
     """What the surface does: back-lit exitance by the reference, over that of an index matched surface."""
     matched = next(one for one in cases if one.case.refractive_index == 1.0)

@@ -67,8 +67,8 @@ def test_cells_follow_a_tolerance():
     def cell(tolerance, medium=SKIN):
         return sg.Shape(*bodies.lobe(levels=2), **medium, tolerance=tolerance).report["cell_mm"]
 
-    assert 0.3 <= cell(0.11) < cell(0.13) < cell(0.2) < cell(0.4) <= 1.6
-    assert cell(0.25, DARK) < cell(0.25)
+    assert 0.3 <= cell(0.11) < cell(0.12) < cell(0.13) < cell(0.15) <= 1.6
+    assert cell(0.2, DARK) < cell(0.2)
     assert cell(10.0) == 1.6
     assert sg.Shape(*bodies.lobe(levels=2), **SKIN).report["cell_mm"] == 0.8
     assert sg.Shape(*bodies.lobe(levels=2), **SKIN, cell_mm=0.6).report["cell_mm"] == 0.6

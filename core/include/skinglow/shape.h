@@ -52,7 +52,8 @@ constexpr double max_shape_refractive_index = 3;
 
 struct ShapeOptions {
     double unit_mm = 1.0;  ///< length of one unit of the vertices, mm; finite, above 0
-    double cell_mm = 0.8;  ///< edge of the cells that light is solved on, mm; 0.5 is final quality
+    double cell_mm =
+        0.8;  ///< edge of the cells that light is solved on, mm, 0.02 to 1000; 0.5 is final quality
     /// Where the flesh is thicker, mm, or light falls by exp(-5) through it, none is taken to come through: it
     /// has the exitance of a half-space.
     double max_thickness_mm = 25.0;
@@ -172,7 +173,7 @@ class Shape {
 
     /// What leaves the flesh at each point, W/m^2, without light that enters skin again: at a vertex the mean
     /// about it, weighted by the hat function of its triangles.
-    /// @param irradiance  at each vertex of the mesh, W/m^2, finite; taken as linear on triangles, diffuse
+    /// @param irradiance  at each vertex of the mesh, W/m^2, up to 1e30; taken as linear on triangles, diffuse
     /// @return one per point, 0 or more. Throws std::invalid_argument naming the entry, ShapeCancelled
     std::vector<glm::dvec3> exitance(std::span<const glm::dvec3> irradiance,
                                      const ShapeProgress& progress = {}) const;

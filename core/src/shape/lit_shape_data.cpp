@@ -53,6 +53,7 @@ SolvedLight::SolvedLight(std::shared_ptr<const ShapeData> of, PreparedRig lights
     options.occluders = nullptr;
     wanted = shape->solver->wanted_vertices(options.reentries > 0);
     sum_irradiance(vertex_light());
+    require_irradiances("light at vertices", irradiance);
     // Spectra of different lights are better put together one by one, and few are as fast that way.
     if (shape->spectrum && rig.size() <= few_lights) {
         each();
@@ -102,6 +103,7 @@ const NodeLights& SolvedLight::each() const {
         for (const RigLight& one : rig.data().prepared) {
             stop_if_asked();
             const std::vector<float> white = light.of_light(one);
+            require_irradiances("white light at vertices", white);
             result.lights.emplace_back();
             if (std::any_of(white.begin(), white.end(), [](float e) { return e != 0; })) {
                 finish_work(work);
@@ -149,19 +151,18 @@ ShapeData::Colors LitShapeData::sum(std::span<const glm::dvec3> colors) const {
     const std::size_t sites = shape->solver->sites().sites().size();
     const auto total = [&](std::vector<glm::mat3> ShapeData::Matrices::*of,
                            std::span<const glm::dvec3> world) {
-        std::vector<glm::vec3> result(sites, glm::vec3(0.0F));
+        std::vector<glm::dvec3> result(sites, glm::dvec3(0.0));
         std::copy(world.begin(), world.end(), result.begin());
         for (std::size_t k = 0; k < colors.size(); ++k) {
             const std::vector<glm::mat3>& matrices_of = by_light().lights[k].*of;
-            const glm::vec3 color = colors[k];
             for (std::size_t s = 0; s < matrices_of.size(); ++s) {
                 const glm::mat3& m = matrices_of[s];
-                result[s] += shape->spectrum ? m * color : glm::vec3(m[0][0], m[1][1], m[2][2]) * color;
+                result[s] += shape->spectrum ? glm::dmat3(m) * colors[k]
+                                             : glm::dvec3(m[0][0], m[1][1], m[2][2]) * colors[k];
             }
         }
-        std::vector<glm::dvec3> exact(sites);
-        for (std::size_t s = 0; s < sites; ++s) exact[s] = glm::max(result[s], glm::vec3(0.0F));
-        return exact;
+        for (glm::dvec3& e : result) e = glm::max(e, glm::dvec3(0.0));
+        return result;
     };
     const ShapeData::Colors& world = by_light().world;
     return {total(&ShapeData::Matrices::exitance, world.exitance),

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int spectral_node_count = 4;
 constexpr double min_cell_mm = 0.02;
+constexpr double max_cell_mm = 1000;
 /// Chosen from a tolerance. Smaller ones are only slower: what is left is SP3's.
 constexpr double finest_chosen_mm = 0.3;
 constexpr double coarsest_chosen_mm = 1.6;
@@ -19,8 +20,8 @@ constexpr double coarsest_chosen_mm = 1.6;
 void validate(const MeshView& mesh, const ShapeOptions& options, const ShapePoints& points) {
     if (mesh.triangles().empty()) refuse_argument("triangles", "empty", "at least one triangle");
     require_positive("unit_mm", options.unit_mm);
-    if (!(options.cell_mm >= min_cell_mm && std::isfinite(options.cell_mm)))
-        refuse_argument("cell_mm", to_text(options.cell_mm), "a finite number, 0.02 or more");
+    if (!(options.cell_mm >= min_cell_mm && options.cell_mm <= max_cell_mm))
+        refuse_argument("cell_mm", to_text(options.cell_mm), "0.02 to 1000");
     require_positive("max_thickness_mm", options.max_thickness_mm);
     if (options.threads < 0) refuse_argument("threads", std::to_string(options.threads), "0 (all) or more");
     if (!points.normals.empty() && points.normals.size() != points.points.size()) {
@@ -38,8 +39,7 @@ void require_irradiance(std::span<const glm::dvec3> irradiance, std::size_t vert
         refuse_argument("irradiance", std::to_string(irradiance.size()) + " entries",
                         "one for each of " + std::to_string(vertices) + " vertices");
     }
-    for (std::size_t i = 0; i < irradiance.size(); ++i)
-        require_finite(entry_name("irradiance", i), irradiance[i]);
+    require_irradiances("irradiance", irradiance);
 }
 
 /// With the cell that a tolerance asks for.

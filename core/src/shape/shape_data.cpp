@@ -14,7 +14,8 @@ namespace {
 constexpr double tolerance = 1e-4;
 /// Over what a half-space sends back: the grid's errors on lit skin are below.
 constexpr float largest_sent_back = 1.1F;
-constexpr double thinnest_mm = 1;
+/// Flesh that light comes through at lit points.
+constexpr double thickest_mm = 2;
 constexpr std::size_t sites_per_block = 512;
 
 Lanes each_channel(const glm::dvec3& rgb) {
@@ -85,11 +86,15 @@ ShapeData::Pair ShapeData::combine(const Lanes& all, const Lanes& of_half_space)
         through[k] = std::max(0.0F, all[k] - part * of_half_space[k]);
     }
     if (sent_back > 0) {
-        // As through this much flesh at least: blue light beyond the last node would be the grid's errors.
+        // What is left is brighter the less it is absorbed, and falls from node to node as through some flesh at
+        // most: where the grid's errors leave a node dark, those about it would have any color.
         const LaneMedium& medium = solver->medium();
-        const double fall = thinnest_mm * (medium[last].decay[0] - medium[last - 1].decay[0]);
-        const float largest = through[last - 1] * static_cast<float>(std::exp(-fall));
-        if (!(through[last] > 0 && through[last] < largest)) through[last] = largest;
+        for (std::size_t k = last; k-- > 0;) through[k] = std::max(through[k], through[k + 1]);
+        for (std::size_t k = 1; k <= last; ++k) {
+            const double rise = medium[k].decay[0] - medium[k - 1].decay[0];
+            through[k] =
+                std::max(through[k], through[k - 1] * static_cast<float>(std::exp(-thickest_mm * rise)));
+        }
     }
     result.exitance += combine(through);
     return result;
@@ -102,13 +107,28 @@ std::vector<glm::dvec3> ShapeData::at_points(const std::vector<glm::dvec3>& of_s
     return result;
 }
 
+/// Solved with the brightest light 1, so that squares in single precision neither overflow nor vanish.
+SiteLight ShapeData::solve_nodes(std::span<Lanes> light, int reentries) const {
+    float brightest = 0;
+    for (const Lanes& e : light) {
+        for (const float x : e.v) brightest = std::max(brightest, std::abs(x));
+    }
+    // Divided, as a small number's inverse may overflow.
+    const float scale = brightest > 0 ? brightest : 1.0F;
+    for (Lanes& e : light) e = each_lane([&](std::size_t k) { return e[k] / scale; });
+    SiteLight result = solver->solve(light, tolerance, reentries, on_the_way());
+    for (Lanes& e : result.exitance) e = e * scale;
+    for (Lanes& e : result.reflected) e = e * scale;
+    return result;
+}
+
 std::vector<SiteLight> ShapeData::solve(std::span<const glm::dvec3> irradiance, int reentries) const {
     std::vector<Lanes> light(irradiance.size());
     std::vector<SiteLight> result;
     if (!spectrum) {
         expect_work(solver->solve_work(reentries));
         std::transform(irradiance.begin(), irradiance.end(), light.begin(), each_channel);
-        result.push_back(solver->solve(light, tolerance, reentries));
+        result.push_back(solve_nodes(light, reentries));
         return result;
     }
     // Light of each channel goes through the flesh by itself; gray light once.
@@ -119,7 +139,7 @@ std::vector<SiteLight> ShapeData::solve(std::span<const glm::dvec3> irradiance, 
     for (int c = 0; c < channels; ++c) {
         for (std::size_t i = 0; i < light.size(); ++i)
             light[i] = Lanes::all(static_cast<float>(irradiance[i][c]));
-        result.push_back(solver->solve(light, tolerance, reentries, on_the_way()));
+        result.push_back(solve_nodes(light, reentries));
     }
     return result;
 }
@@ -127,7 +147,7 @@ std::vector<SiteLight> ShapeData::solve(std::span<const glm::dvec3> irradiance, 
 SiteLight ShapeData::solve_white(std::span<const float> irradiance, int reentries) const {
     std::vector<Lanes> light(irradiance.size());
     std::transform(irradiance.begin(), irradiance.end(), light.begin(), Lanes::all);
-    return solver->solve(light, tolerance, reentries, on_the_way());
+    return solve_nodes(light, reentries);
 }
 
 ShapeData::Colors ShapeData::colors(std::span<const SiteLight> solved) const {

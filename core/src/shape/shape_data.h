@@ -2,9 +2,11 @@
 
 #include <skinglow/shape.h>
 
+#include <cmath>
 #include <glm/mat3x3.hpp>
 #include <optional>
 
+#include "numerics/argument_check.h"
 #include "numerics/job.h"
 #include "shape/shape_solver.h"
 #include "shape/spectral_nodes.h"
@@ -68,10 +70,25 @@ struct ShapeData {
   private:
     glm::dmat3 combine(const Lanes& exitance) const;
     void set_thick();
+    SiteLight solve_nodes(std::span<Lanes> light, int reentries) const;
 
     std::vector<glm::dmat3> thick_;  ///< as SpectralNodes::thick, of the surface of the body
     glm::dmat3 all_thick_{0.0};
 };
+
+/// Throws std::invalid_argument where a light is too bright for single precision, or not finite.
+template <typename Values>
+void require_irradiances(const char* name, const Values& irradiance) {
+    constexpr double largest = 1e30;
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+        const glm::dvec3 e(irradiance[i]);
+        for (int c = 0; c < 3; ++c) {
+            if (!(std::abs(e[c]) <= largest))
+                refuse_argument(entry_name(name, i)(), to_text(e[c]),
+                                "a finite number of at most 1e30 W/m^2");
+        }
+    }
+}
 
 /// Runs long work that `progress` may stop, told of it on this thread; throws ShapeCancelled.
 void run_or_cancel(const ShapeProgress& progress, const std::function<void()>& work);

@@ -12,20 +12,21 @@ namespace {
 
 constexpr double least = 0.01;
 constexpr double per_fall = 0.018;
-constexpr double per_fall_of_cell = 0.028;
-constexpr double cell_power = 2.4;
+constexpr double per_fall_of_cell = 0.042;
+constexpr double cell_power = 1.3;
 /// Smooth surfaces are further off: SP3 has their reflectance as moments alone.
-constexpr double of_smooth = 1.2;
+constexpr double of_smooth = 1.15;
 /// Of a tissue, between the nodes.
 constexpr double of_spectrum = 0.04;
 /// Flesh that light comes through, mm, and RMS over mean of such light on an ear.
 constexpr double ear_mm = 3;
 constexpr double ear_contrast = 1.7;
+constexpr double channels = 3;
 
 /// Per unit of log(brightest / exitance).
 double error_per_fall(const Sp3Medium& medium, double cell) {
     const double surface = medium.refractive_index > 1 ? of_smooth : 1;
-    return surface * (per_fall + per_fall_of_cell * std::pow(medium.extinction * cell, cell_power));
+    return surface * (per_fall + per_fall_of_cell * std::pow(medium.decay[0] * cell, cell_power));
 }
 
 Lanes max_of(const Lanes& a, const Lanes& b) {
@@ -79,7 +80,7 @@ double back_lit_error(const LaneMedium& medium, double cell) {
         squares += error * error;
         sum += through;
     }
-    return ear_contrast * std::sqrt(squares * static_cast<double>(medium.nodes())) / sum;
+    return ear_contrast * std::sqrt(channels * squares) / sum;
 }
 
 double cell_for(const LaneMedium& medium, double tolerance, double min_cell, double max_cell) {

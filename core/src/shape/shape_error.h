@@ -6,7 +6,7 @@ namespace skinglow::detail {
 
 /// How far off a solved exitance is taken to be: one standard deviation over it, by node.
 ///
-/// a + (b + c (extinction cell)^p) log(brightest / exitance): most of the error is one of the rate at which light
+/// a + (b + c (decay cell)^p) log(brightest / exitance): most of the error is one of the rate at which light
 /// falls in flesh, due to SP3 and to the grid, so that it grows with the powers of e that light has fallen by. The
 /// numbers are fitted to the errors measured in docs/shape.md: above them, and less than three times of them.
 /// @param brightest  irradiance of the part that the point is in

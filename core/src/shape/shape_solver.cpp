@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "geometry/vector.h"
+#include "numerics/argument_check.h"
 #include "numerics/job.h"
 #include "numerics/parallel_blocks.h"
 
@@ -28,6 +30,9 @@ constexpr double opaque = 3;
 constexpr int reentry_rays = 32;
 /// What solving takes, by site, where making a site's rows is 1.
 constexpr double work_of_solved = 0.02;
+
+/// Points farther away are no points of the body.
+constexpr double farthest_mm = 1e9;
 
 double margin_of(const LaneMedium& medium, const SolverOptions& options) {
     const double decay = medium.min_decay();
@@ -62,7 +67,12 @@ SurfaceSites make_sites(const Body& body, const TriangleTree& tree, std::span<co
     if (points.empty()) return SurfaceSites(body);
     std::vector<glm::vec3> local;
     local.reserve(points.size());
-    for (const glm::dvec3& p : points) local.push_back(body.local(p));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        local.push_back(body.local(points[i]));
+        if (!(max_abs(glm::dvec3(local.back())) <= farthest_mm))
+            refuse_argument(entry_name("points", i)(), to_text(points[i]),
+                            "up to 1e9 mm from the body's center");
+    }
     const std::vector<glm::vec3> facing(normals.begin(), normals.end());
     return {body, tree, local, facing};
 }

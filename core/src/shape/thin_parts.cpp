@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "geometry/vector.h"
+#include "numerics/job.h"
 #include "numerics/parallel_blocks.h"
 #include "rays/direction_sampling.h"
 #include "shape/site_groups.h"
@@ -59,6 +60,7 @@ SpaceBlocks vertices_by_light(const Body& body, double margin) {
         vertices.add(body.positions()[body.welded_of()[v]], v);
     // A large triangle brings light from corners that may be far away.
     for (const BodyTriangle& t : body.triangles()) {
+        stop_if_asked();
         for (int k = 0; k < 3; ++k) {
             const glm::vec3 a = body.corner(t, k);
             const glm::vec3 b = body.corner(t, (k + 1) % 3);
@@ -174,6 +176,7 @@ std::vector<ThinPart> thin_parts(const Body& body, const SurfaceSites& sites,
     for (std::uint32_t i = 0; i < weights.size(); ++i) {
         if (weights[i] > 0) chosen.push_back(i);
     }
+    if (chosen.empty()) return {};
     const SpaceBlocks vertices = vertices_by_light(body, margin);
     std::vector<ThinPart> parts;
     for (std::vector<std::uint32_t>& group : site_groups(body, sites, chosen, margin))
