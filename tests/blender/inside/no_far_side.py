@@ -20,11 +20,12 @@ class Labels:
     def column(self, **_):
         return self
 
-    def prop(self, *_args, **_kwargs):
-        pass
+    row = column
 
-    def operator(self, *_args, **_kwargs):
-        pass
+    def drawn(self, *_args, **_kwargs):
+        """What has no text of ours."""
+
+    prop = operator = template_icon = separator = drawn
 
     def label(self, text="", **_):
         self.texts.append(text)
