@@ -54,12 +54,12 @@ def main(cell_mm: float) -> None:
     print(f"cell {cell_mm} mm, {len(one)} points of one ear, three channels, one thread")
     print(f"prepare and first light            {prepare - move:8.3f} s")
     print(f"moved light, irradiance given      {1e3 * move:8.1f} ms")
-    one = [light((-160.0, 400.0, 100.0))]
-    ear.light(one, reentries=0)
-    print(f"moved light, its shadows traced    {1e3 * seconds(lambda: ear.light(one, reentries=0)):8.1f} ms")
-    ear.light(one)
-    print(f"the same, two re-entries           {1e3 * seconds(lambda: ear.light(one)):8.1f} ms")
-    lit = ear.light(one)
+    behind = [light((-160.0, 400.0, 100.0))]
+    ear.light(behind, reentries=0)
+    print(f"moved light, its shadows traced    {1e3 * seconds(lambda: ear.light(behind, reentries=0)):8.1f} ms")
+    ear.light(behind)
+    print(f"the same, two re-entries           {1e3 * seconds(lambda: ear.light(behind)):8.1f} ms")
+    lit = ear.light(behind)
     lit.recolor([(1.0, 0.5, 0.2)])
     print(f"another color                      {1e3 * seconds(lambda: lit.recolor([(1.0, 0.5, 0.2)])):8.3f} ms")
     print(f"memory                             {ear.bytes / len(one) / 1000:8.1f} kB a point")

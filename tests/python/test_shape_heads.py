@@ -37,8 +37,7 @@ def ear(name, cell_mm):
         cell_mm=cell_mm,
     )
     center = truth["ear_centre_mm"]
-    distance = [np.linalg.norm(part.center - center) if len(part.points) > 500 else np.inf for part in shape.parts]
-    own = vertices[shape.parts[int(np.argmin(distance))].points]
+    own = vertices[truth["vertex"]]
     near = np.linalg.norm(vertices - center, axis=1) < 60.0
     near[near] = [np.min(np.sum((own[::7] - v) ** 2, axis=1)) < 14.0**2 for v in vertices[near]]
     return truth, shape, vertices, np.where(near, truth["irradiance"].astype(float), 0.0)
@@ -61,13 +60,22 @@ def errors(name, cell_mm):
     return 100.0 * np.append(each, together)
 
 
-# What was measured, with a margin of some tenths of the errors of the truths themselves: docs/shape.md has the table.
+# docs/shape.md has the table. Of the smooth surface the truth is noisy, 1.8 of the 9.6 % that are measured.
 @pytest.mark.parametrize(
-    ("name", "together", "blue"),
-    [("lps-a", 6.5, 30.0), ("lps-c", 10.0, 55.0), ("mh-a", 8.0, 35.0)],
+    ("name", "cell_mm", "together", "blue"),
+    [
+        ("lps-a", 0.8, 6.0, 35.0),
+        ("lps-c", 0.8, 8.0, 35.0),
+        ("mh-a", 0.8, 5.5, 20.0),
+        ("lps-a-sdiff", 0.8, 10.5, 35.0),
+        # The blue of dark skin is a hundredth of its red, and a few vertices in folds are most of its error.
+        ("lps-a-dark", 0.8, 11.0, 130.0),
+        ("lps-c", 0.5, 6.0, 20.0),
+        ("mh-a", 0.5, 6.0, 15.0),
+    ],
 )
-def test_ears_lit_from_behind_are_what_monte_carlo_says(name, together, blue):
-    found = errors(name, 0.8)
+def test_ears_lit_from_behind_are_what_monte_carlo_says(name, cell_mm, together, blue):
+    found = errors(name, cell_mm)
     assert found[3] < together, found
     assert found[2] < blue, found
 

@@ -62,12 +62,12 @@ TEST(FleshSurface, RaysPassWallsInsideFleshAndStopAtCavities) {
     walled.append(shapes::sphere(3, 4));
     const Body body(walled.view(), 1.0);
     const FleshSurface surface(body, 0.5);
-    const auto out = surface.nearest({0.1F, 0.2F, 0.0F}, {0, 0, 1}, 0);
+    const auto out = surface.nearest({0.1F, 0.2F, 0.0F}, {0, 0, 1});
     ASSERT_TRUE(out);
     EXPECT_NEAR(out->distance, 5, 0.05);
     const Body shell(shapes::shell(5, 2, 4).view(), 1.0);
     const FleshSurface hollow(shell, 0.5);
-    const auto in = hollow.nearest({0.1F, 0.2F, -4.0F}, {0, 0, 1}, 0);
+    const auto in = hollow.nearest({0.1F, 0.2F, -4.0F}, {0, 0, 1});
     ASSERT_TRUE(in);
     EXPECT_NEAR(in->distance, 1, 0.05);
 }

@@ -113,9 +113,9 @@ void add_triangles(RTCDevice device, RTCScene scene, std::span<const glm::dvec3>
 }
 
 RTCRayHit intersect(RTCScene scene, const glm::dvec3& origin, const glm::dvec3& direction, float from,
-                    const HitVisitor* visitor) {
+                    float to, const HitVisitor* visitor) {
     RTCRayHit query{};
-    query.ray = ray_from(origin, direction, from, std::numeric_limits<float>::infinity());
+    query.ray = ray_from(origin, direction, from, to);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     FilterContext context{.embree = {}, .excluded = {}, .visitor = visitor};
@@ -170,12 +170,13 @@ EmbreeTriangles::EmbreeTriangles(std::span<const glm::dvec3> points, std::span<c
 
 void EmbreeTriangles::visit(const glm::dvec3& origin, const glm::dvec3& direction, float from,
                             const HitVisitor& visitor) const {
-    intersect(handles_->scene.get(), origin, direction, from, &visitor);
+    intersect(handles_->scene.get(), origin, direction, from, std::numeric_limits<float>::infinity(),
+              &visitor);
 }
 
 std::optional<TriangleHit> EmbreeTriangles::nearest(const glm::dvec3& origin, const glm::dvec3& direction,
-                                                    float from) const {
-    const RTCRayHit found = intersect(handles_->scene.get(), origin, direction, from, nullptr);
+                                                    float from, float to) const {
+    const RTCRayHit found = intersect(handles_->scene.get(), origin, direction, from, to, nullptr);
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return TriangleHit{found.ray.tfar, found.hit.primID, found.hit.u, found.hit.v};
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -44,10 +45,10 @@ class EmbreeTriangles {
     void visit(const glm::dvec3& origin, const glm::dvec3& direction, float from,
                const HitVisitor& visitor) const;
 
-    /// The nearest hit of a ray from a distance on, on either side of a triangle; none where it meets nothing.
+    /// The nearest hit of a ray between two distances, on either side of a triangle; none where it meets nothing.
     /// @param direction  unit length
-    std::optional<TriangleHit> nearest(const glm::dvec3& origin, const glm::dvec3& direction,
-                                       float from) const;
+    std::optional<TriangleHit> nearest(const glm::dvec3& origin, const glm::dvec3& direction, float from,
+                                       float to = std::numeric_limits<float>::infinity()) const;
 
     /// Whether a triangle lies between two distances along a ray.
     /// @param direction  unit length

@@ -7,8 +7,10 @@
 namespace skinglow::detail {
 namespace {
 
-/// A ghost takes what lies within this distance of it along the surface, squared, in cells.
+/// A ghost takes what lies within this distance of it along the surface, squared, in cells: the nearest almost
+/// alone. A wider mean carries light over the edge of a shadow, by a third in blue.
 constexpr float max_aside_sq = 1.2F;
+constexpr float narrowness = 20;
 
 /// Decay times height up to which a field is followed beyond the surface.
 constexpr double max_rise = 1.5;
@@ -67,7 +69,7 @@ std::vector<Lean> find_leans(const Body& body, const VoxelGrid& grid, std::span<
             std::int32_t& number = index[grid.linear(voxel)];
             if (number < 0) number = static_cast<std::int32_t>(grid.size() + ghosts++);
             leans.push_back({static_cast<std::uint32_t>(number) - grid.size(), i,
-                             s.area * std::exp(-2 * aside_sq / (h * h)), height});
+                             s.area * std::exp(-narrowness * aside_sq / (h * h)), height});
         }
     }
     return leans;

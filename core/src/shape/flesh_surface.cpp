@@ -73,9 +73,10 @@ FleshSurface::Kind FleshSurface::find_kind(std::uint32_t triangle) const {
 }
 
 std::optional<TriangleHit> FleshSurface::nearest(const glm::vec3& origin, const glm::vec3& direction,
-                                                 float from) const {
+                                                 float to) const {
+    float from = 0;
     for (int i = 0; i < max_walls; ++i) {
-        const std::optional<TriangleHit> hit = rays_.nearest(origin, direction, from);
+        const std::optional<TriangleHit> hit = rays_.nearest(origin, direction, from, to);
         if (!hit || !is_wall(hit->triangle, hit->u, hit->v)) return hit;
         from = hit->distance + gap_;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -32,9 +33,10 @@ class FleshSurface {
     /// Whether all of a triangle is.
     bool is_all_wall(std::uint32_t triangle) const { return kind_of(triangle) == Kind::wall; }
 
-    /// The nearest triangle of the body along a ray, no nearer than `from`, that is no wall.
+    /// The nearest triangle of the body along a ray, up to a distance, that is no wall.
     /// @param direction  unit length
-    std::optional<TriangleHit> nearest(const glm::vec3& origin, const glm::vec3& direction, float from) const;
+    std::optional<TriangleHit> nearest(const glm::vec3& origin, const glm::vec3& direction,
+                                       float to = std::numeric_limits<float>::infinity()) const;
 
     /// Whether the surface stops a ray that begins at a point of it and goes outward.
     /// @param direction  unit length

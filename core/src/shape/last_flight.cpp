@@ -128,10 +128,10 @@ class FlightTracer {
         Lanes weight = Lanes::all(1 - inside_reflectance_);
         if (index_n_ > 1) weight = weight * (escaping_ * (1 - fresnel(ray.direction, ray.normal)));
         for (int bounce = 0; bounce < max_bounces; ++bounce) {
-            const auto hit = surface_.nearest(ray.origin, ray.direction, 0.0F);
+            const auto hit = surface_.nearest(ray.origin, ray.direction, max_length_);
             const float length = hit ? hit->distance : std::numeric_limits<float>::infinity();
             collect(ray, std::min(length, max_length_), weight);
-            if (length > max_length_) return;
+            if (!hit) return;
             weight = weight * decay(length);
             if (std::max({weight[0], weight[1], weight[2], weight[3]}) < least_weight * least_weight) return;
             const BodyTriangle& t = body_.triangles()[hit->triangle];
@@ -212,10 +212,12 @@ class FlightTracer {
             const float largest = std::max({value[0], value[1], value[2], value[3]}) * per_ray;
             const float kept = std::min(1.0F, largest / options_.small_entry);
             const std::uint64_t salt = (static_cast<std::uint64_t>(index) << 32U) + column;
-            if (uniform_of(salt) < kept) rows.of_fluence.add(column, value * scattered_ * (per_ray / kept));
+            if (uniform_of(salt) < kept)
+                rows.of_fluence.add(column, pack(value * scattered_ * (per_ray / kept)));
         });
-        light_.take(
-            [&](std::uint32_t column, const Lanes& value) { rows.of_light.add(column, value * per_ray); });
+        light_.take([&](std::uint32_t column, const Lanes& value) {
+            rows.of_light.add(column, pack(value * per_ray));
+        });
         rows.of_fluence.end_row();
         rows.of_light.end_row();
     }

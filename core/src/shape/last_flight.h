@@ -12,8 +12,8 @@ namespace skinglow::detail {
 /// sum_steps (exp(-st s0) - exp(-st s1)) fluence + exp(-st length) light at its end) Small entries are left
 /// to chance, and weigh more where they stay: nothing is lost in the mean.
 struct LastFlight {
-    SparseRows<Lanes> of_fluence;  ///< columns are cells and ghosts
-    SparseRows<Lanes> of_light;    ///< columns are vertices: what comes through without a collision
+    SparseRows<PackedLanes> of_fluence;  ///< columns are cells and ghosts
+    SparseRows<PackedLanes> of_light;    ///< columns are vertices: what comes through without a collision
 
     std::size_t bytes() const { return of_fluence.bytes() + of_light.bytes(); }
 };

@@ -93,10 +93,11 @@ void PartSolver::exitance(const LastFlight& flight, const PartField& field, std:
             Lanes sum;
             const auto cells = flight.of_fluence.columns(s);
             const auto weights = flight.of_fluence.values(s);
-            for (std::size_t i = 0; i < cells.size(); ++i) sum += weights[i] * field.fluence[cells[i]];
+            for (std::size_t i = 0; i < cells.size(); ++i)
+                sum += unpack(weights[i]) * field.fluence[cells[i]];
             const auto vertices = flight.of_light.columns(s);
             const auto through = flight.of_light.values(s);
-            for (std::size_t i = 0; i < vertices.size(); ++i) sum += through[i] * light[vertices[i]];
+            for (std::size_t i = 0; i < vertices.size(); ++i) sum += unpack(through[i]) * light[vertices[i]];
             out[s] = each_lane([&](std::size_t k) { return std::max(0.0F, sum[k]); });
         }
     };

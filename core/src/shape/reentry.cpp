@@ -46,7 +46,7 @@ Reentry::Reentry(const FleshSurface& surface, const SurfaceSites& sites, std::sp
                     const glm::vec3 origin = site.position + site.normal * (4 * surface.gap());
                     for (const glm::dvec3& local : directions) {
                         const glm::vec3 direction = frame * local;
-                        const auto hit = surface.nearest(origin, direction, 0.0F);
+                        const auto hit = surface.nearest(origin, direction);
                         if (!hit) continue;
                         const BodyTriangle& t = body.triangles()[hit->triangle];
                         if (glm::dot(t.normal, direction) >= 0) continue;

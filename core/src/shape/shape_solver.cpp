@@ -26,8 +26,9 @@ constexpr double max_places = 6e7;
 constexpr double max_refined_places = 4e6;  // with cells smaller than asked for
 /// Flesh in which light falls by this many powers of e within a cell is a half-space.
 constexpr double opaque = 3;
-/// Rays from a vertex whose exitance is only wanted as light for others.
+/// Of a vertex whose exitance is only wanted as light for others: rays, and below what entries chance decides.
 constexpr int reentry_rays = 32;
+constexpr float small_reentry = 2e-3F;
 /// What solving takes, by site, where making a site's rows is 1.
 constexpr double work_of_solved = 0.02;
 
@@ -90,12 +91,13 @@ ShapeSolver::ShapeSolver(const MeshView& mesh, std::span<const glm::dvec3> point
       margin_(margin_of(medium, options)) {
     expect_work(static_cast<double>(sites_.sites().size()));
     std::size_t done = 0;
-    const auto thickness = site_thickness(surface_, sites_, options.threads, [&](std::size_t sites) {
-        finish_work(static_cast<double>(sites - done));
-        done = sites;
-    });
-    is_solved_.assign(sites_.sites().size(), 0);
     const double max_thickness = std::min(options.max_thickness_mm, thickness_in_decays / medium.min_decay());
+    const auto thickness =
+        site_thickness(surface_, sites_, max_thickness, options.threads, [&](std::size_t sites) {
+            finish_work(static_cast<double>(sites - done));
+            done = sites;
+        });
+    is_solved_.assign(sites_.sites().size(), 0);
     for (ThinPart& part : thin_parts(body_, sites_, thickness, max_thickness, margin_)) {
         for (std::size_t i = 0; i < part.sites.size(); ++i) is_solved_[part.sites[i]] = part.weight[i] == 1;
         parts_.push_back(std::make_unique<LazyPart>());
@@ -130,8 +132,9 @@ const VertexRows& ShapeSolver::vertex_rows(const LazyPart& part) const {
         std::sort(rows.sites.begin(), rows.sites.end());
         rows.sites.erase(std::unique(rows.sites.begin(), rows.sites.end()), rows.sites.end());
         expect_work(static_cast<double>(rows.sites.size()));
-        rows.flight = solver.flight_of(surface_, vertex_sites(), rows.sites, medium_,
-                                       {.rays = reentry_rays, .threads = options_.threads});
+        rows.flight = solver.flight_of(
+            surface_, vertex_sites(), rows.sites, medium_,
+            {.rays = reentry_rays, .small_entry = small_reentry, .threads = options_.threads});
         return rows;
     });
 }

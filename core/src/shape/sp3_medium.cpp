@@ -90,8 +90,9 @@ Boundary boundary_of(double n, ShapeSurface surface) {
     // From (phi1, phi2) to fluence and second moment: phi1 - 2/3 phi2, phi2 / 3.
     const Matrix2 moments{1, -2.0 / 3, 0, 1.0 / 3};
     Matrix2 matrix = to_flux * Matrix2{a[0][0], a[0][1], a[1][0], a[1][1]} * moments;
-    // Of a smooth surface it is symmetric but for some 0.003, which a symmetric solver cannot have.
-    matrix.a12 = matrix.a21 = 0.5 * (matrix.a12 + matrix.a21);
+    // Of a smooth surface it is symmetric but for some 0.003, which a symmetric solver cannot have. The first row is
+    // the flux of energy: it stays, so that what does not absorb returns what it gets.
+    matrix.a21 = matrix.a12;
     return {matrix, to_flux * s};
 }
 

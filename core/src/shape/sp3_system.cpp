@@ -21,16 +21,26 @@ double flux_factor(double x, double h) {
     return x < 1e-3 ? h * (1 - x * x / 6) : (x > 500 ? 0.0 : h * x / std::sinh(x));
 }
 
-LaneSum dot(std::span<const LanePair> a, std::span<const LanePair> b) {
-    LaneSum total{};
-    for (std::size_t begin = 0; begin < a.size(); begin += sum_block) {
-        Lanes sum;
-        const std::size_t end = std::min(a.size(), begin + sum_block);
-        for (std::size_t i = begin; i < end; ++i) sum += a[i].first * b[i].first + a[i].second * b[i].second;
-        for (std::size_t k = 0; k < lane_count; ++k) total[k] += static_cast<double>(sum[k]);
+/// A sum over cells, in single precision for some, then in double.
+class CellSum {
+  public:
+    void add(std::size_t cell, const LanePair& a, const LanePair& b) {
+        part_ += a.first * b.first + a.second * b.second;
+        if (cell % sum_block == 0) flush();
     }
-    return total;
-}
+    const LaneSum& total() {
+        flush();
+        return total_;
+    }
+
+  private:
+    void flush() {
+        for (std::size_t k = 0; k < lane_count; ++k) total_[k] += static_cast<double>(part_[k]);
+        part_ = {};
+    }
+    LaneSum total_{};
+    Lanes part_;
+};
 
 }  // namespace
 
@@ -124,57 +134,43 @@ Sp3System::Sp3System(const VoxelGrid& grid, std::span<const BoundarySample> samp
     }
 }
 
-void Sp3System::apply(std::span<const LanePair> x, std::span<LanePair> result) const {
-    for (std::size_t c = 0; c < class_of_.size(); ++c) {
-        LanePair around;
-        for (const std::uint32_t n : neighbors_[c]) around += x[n];
-        const Block& b = blocks_[class_of_[c]];
-        result[c].first = b.d11 * x[c].first + b.d12 * x[c].second - flux1_ * around.first;
-        result[c].second = b.d12 * x[c].first + b.d22 * x[c].second - flux2_ * around.second;
-    }
+void Sp3System::solve_lower(std::size_t c, const LanePair& right, std::span<LanePair> result) const {
+    const auto& n = neighbors_[c];
+    // Those before this cell; n may be the cell of zeros at the end.
+    LanePair around = result[n[0]];
+    around += result[n[2]];
+    around += result[n[4]];
+    const Lanes u = right.first + flux1_ * around.first;
+    const Lanes w = right.second + flux2_ * around.second;
+    const Block& b = blocks_[class_of_[c]];
+    result[c] = {b.i11 * u + b.i12 * w, b.i12 * u + b.i22 * w};
 }
 
-void Sp3System::precondition(std::span<const LanePair> residual, std::span<LanePair> result) const {
-    const std::size_t count = class_of_.size();
-    for (std::size_t c = 0; c < count; ++c) {
-        const auto& n = neighbors_[c];
-        // Those before this cell; n may be the cell of zeros at the end.
-        LanePair around = result[n[0]];
-        around += result[n[2]];
-        around += result[n[4]];
-        const Lanes u = residual[c].first + flux1_ * around.first;
-        const Lanes w = residual[c].second + flux2_ * around.second;
-        const Block& b = blocks_[class_of_[c]];
-        result[c] = {b.i11 * u + b.i12 * w, b.i12 * u + b.i22 * w};
-    }
-    for (std::size_t c = count; c-- > 0;) {
-        const auto& n = neighbors_[c];
-        LanePair around = result[n[1]];
-        around += result[n[3]];
-        around += result[n[5]];
-        const Lanes u = flux1_ * around.first;
-        const Lanes w = flux2_ * around.second;
-        const Block& b = blocks_[class_of_[c]];
-        result[c] += {b.i11 * u + b.i12 * w, b.i12 * u + b.i22 * w};
-    }
+LanePair Sp3System::diagonal(std::size_t c, const LanePair& x) const {
+    const Block& b = blocks_[class_of_[c]];
+    return {b.d11 * x.first + b.d12 * x.second, b.d12 * x.first + b.d22 * x.second};
 }
 
 int Sp3System::solve(std::span<const LanePair> right, std::span<LanePair> modes, double tolerance) const {
+    // With A = K + K^T - D, K the lower triangle with the diagonal D, the preconditioned matrix is
+    // K^-1 A K^-T = K^-T + K^-1 (1 - D K^-T): two sweeps, no product with A (S. C. Eisenstat, "Efficient
+    // implementation of a class of preconditioned conjugate gradient methods", SIAM J. Sci. Stat. Comput. 2(1),
+    // 1981). All vectors but the modes are of that system.
     const std::size_t count = class_of_.size();
-    const auto cells = [&](std::vector<LanePair>& v) { return std::span(v).first(count); };
-    std::vector<LanePair> residual(count);
-    std::vector<LanePair> z(count + 1);
-    std::vector<LanePair> direction(count + 1);
-    std::vector<LanePair> product(count);
-    precondition(right, z);
-    const LaneSum start = dot(right, cells(z));
-    apply(modes, product);
+    std::fill(modes.begin(), modes.end(), LanePair{});
+    std::vector<LanePair> residual(modes.size());
+    std::vector<LanePair> direction(count);
+    std::vector<LanePair> above(modes.size());  // K^-T direction
+    std::vector<LanePair> left(count);          // (1 - D K^-T) direction
+    std::vector<LanePair> below(modes.size());  // K^-1 of that
+    CellSum first;
     for (std::size_t c = 0; c < count; ++c) {
-        residual[c] = {right[c].first - product[c].first, right[c].second - product[c].second};
+        solve_lower(c, right[c], residual);
+        first.add(c, residual[c], diagonal(c, residual[c]));
     }
-    precondition(residual, z);
-    std::copy(z.begin(), z.end() - 1, direction.begin());
-    LaneSum rz = dot(residual, cells(z));
+    const LaneSum start = first.total();
+    LaneSum rz = start;
+    Lanes keep;
     int iteration = 0;
     for (; iteration < max_iterations; ++iteration) {
         stop_if_asked();
@@ -186,26 +182,42 @@ int Sp3System::solve(std::span<const LanePair> right, std::span<LanePair> modes,
             any = any || open;
         }
         if (!any) break;
-        apply(direction, product);
-        const LaneSum curvature = dot(cells(direction), product);
+        for (std::size_t c = count; c-- > 0;) {
+            const auto& n = neighbors_[c];
+            LanePair around = above[n[1]];
+            around += above[n[3]];
+            around += above[n[5]];
+            const LanePair z = diagonal(c, residual[c]);
+            LanePair& d = direction[c];
+            d = {z.first + keep * d.first, z.second + keep * d.second};
+            const LanePair from = {flux1_ * around.first, flux2_ * around.second};
+            const Lanes u = d.first + from.first;
+            const Lanes w = d.second + from.second;
+            const Block& b = blocks_[class_of_[c]];
+            above[c] = {b.i11 * u + b.i12 * w, b.i12 * u + b.i22 * w};
+            left[c] = from * -1.0F;
+        }
+        CellSum sum;
+        for (std::size_t c = 0; c < count; ++c) {
+            solve_lower(c, left[c], below);
+            sum.add(c, direction[c], {above[c].first + below[c].first, above[c].second + below[c].second});
+        }
+        const LaneSum curvature = sum.total();
         const Lanes step = each_lane([&](std::size_t k) {
             return is_open[k] > 0 && curvature[k] > 0 ? static_cast<float>(rz[k] / curvature[k]) : 0.0F;
         });
+        CellSum next_sum;
         for (std::size_t c = 0; c < count; ++c) {
-            modes[c].first += step * direction[c].first;
-            modes[c].second += step * direction[c].second;
-            residual[c].first = residual[c].first - step * product[c].first;
-            residual[c].second = residual[c].second - step * product[c].second;
+            const LanePair& a = above[c];
+            modes[c] += {step * a.first, step * a.second};
+            LanePair& r = residual[c];
+            r = {r.first - step * (a.first + below[c].first), r.second - step * (a.second + below[c].second)};
+            next_sum.add(c, r, diagonal(c, r));
         }
-        precondition(residual, z);
-        const LaneSum next = dot(residual, cells(z));
-        const Lanes keep = each_lane([&](std::size_t k) {
+        const LaneSum next = next_sum.total();
+        keep = each_lane([&](std::size_t k) {
             return is_open[k] > 0 && rz[k] > 0 ? static_cast<float>(next[k] / rz[k]) : 0.0F;
         });
-        for (std::size_t c = 0; c < count; ++c) {
-            direction[c].first = z[c].first + keep * direction[c].first;
-            direction[c].second = z[c].second + keep * direction[c].second;
-        }
         for (std::size_t k = 0; k < lane_count; ++k) {
             if (is_open[k] > 0) rz[k] = next[k];
         }

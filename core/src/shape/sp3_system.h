@@ -26,7 +26,7 @@ class Sp3System {
     /// preconditioner; each node stops when its residual, in the preconditioner's norm, is below
     /// the tolerance times the right side's.
     /// @param right  one per cell
-    /// @param modes  one per cell and one of zeros at the end; start and result
+    /// @param modes  one per cell and one of zeros at the end
     /// @return iterations
     int solve(std::span<const LanePair> right, std::span<LanePair> modes, double tolerance) const;
 
@@ -41,8 +41,9 @@ class Sp3System {
         Lanes d11, d12, d22;
         Lanes i11, i12, i22;
     };
-    void apply(std::span<const LanePair> x, std::span<LanePair> result) const;
-    void precondition(std::span<const LanePair> residual, std::span<LanePair> result) const;
+    /// One cell's unknowns of the equations' lower triangle, the cells before it being known.
+    void solve_lower(std::size_t cell, const LanePair& right, std::span<LanePair> result) const;
+    LanePair diagonal(std::size_t cell, const LanePair& x) const;
 
     Lanes flux1_, flux2_;        ///< between neighbors, mm
     std::vector<Block> blocks_;  ///< the first is that of cells amid others

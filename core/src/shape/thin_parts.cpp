@@ -24,12 +24,13 @@ constexpr double cone_half_angle = 25 * std::numbers::pi / 180;
 /// Sites within a margin of thin ones count, up to this part of it in full.
 constexpr double full_weight = 0.5;
 
-float thickness_of(const FleshSurface& surface, const Site& site, const std::vector<glm::dvec3>& directions) {
+float thickness_of(const FleshSurface& surface, const Site& site, const std::vector<glm::dvec3>& directions,
+                   double max_thickness) {
     const glm::dmat3 frame = frame_around(-glm::normalize(glm::dvec3(site.normal)));
     const glm::vec3 origin = site.position - site.normal * surface.gap();
     std::array<float, thickness_rays> lengths{};
     for (std::size_t r = 0; r < lengths.size(); ++r) {
-        const auto hit = surface.nearest(origin, frame * directions[r], 0.0F);
+        const auto hit = surface.nearest(origin, frame * directions[r], static_cast<float>(max_thickness));
         lengths[r] = hit ? hit->distance : std::numeric_limits<float>::infinity();
     }
     std::nth_element(lengths.begin(), lengths.begin() + rays_below, lengths.end());
@@ -151,8 +152,8 @@ void share_vertices(const Body& body, const SurfaceSites& sites, double margin,
 
 }  // namespace
 
-std::vector<SiteThickness> site_thickness(const FleshSurface& surface, const SurfaceSites& sites, int threads,
-                                          const SitesDone& done) {
+std::vector<SiteThickness> site_thickness(const FleshSurface& surface, const SurfaceSites& sites,
+                                          double max_thickness, int threads, const SitesDone& done) {
     const auto narrow = cone_directions(thickness_rays, cone_half_angle);
     const auto wide = cosine_directions(thickness_rays);
     std::vector<SiteThickness> thickness(sites.sites().size());
@@ -160,8 +161,8 @@ std::vector<SiteThickness> site_thickness(const FleshSurface& surface, const Sur
         for (std::size_t i = begin; i < end; ++i) {
             const Site& site = sites.sites()[i];
             if (!site.on_surface || site.normal == glm::vec3(0.0F)) continue;
-            thickness[i].along_normal = thickness_of(surface, site, narrow);
-            thickness[i].to_light = thickness_of(surface, site, wide);
+            thickness[i].along_normal = thickness_of(surface, site, narrow, max_thickness);
+            thickness[i].to_light = thickness_of(surface, site, wide, max_thickness);
         }
     };
     for_each_block(thickness.size(), threads, work, done, 512);

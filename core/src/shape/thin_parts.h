@@ -30,8 +30,9 @@ struct SiteThickness {
     float to_light = std::numeric_limits<float>::infinity();
 };
 
-std::vector<SiteThickness> site_thickness(const FleshSurface& surface, const SurfaceSites& sites, int threads,
-                                          const SitesDone& done);
+/// @param max_thickness  mm, what is thicker counts as infinite
+std::vector<SiteThickness> site_thickness(const FleshSurface& surface, const SurfaceSites& sites,
+                                          double max_thickness, int threads, const SitesDone& done);
 
 /// Groups the sites that are thinner than a limit, and those about them, whose weight falls with the
 /// distance. What lies behind the margin does not matter, so that any groups can be solved apart: they are

@@ -110,15 +110,27 @@ std::vector<std::uint8_t> VoxelGrid::mark_near(std::span<const glm::vec3> center
 }
 
 void VoxelGrid::number_cells() {
-    std::int32_t count = 0;
-    std::vector<std::uint64_t> cells;
+    // By diagonal planes, x + y + z: cells of one are no neighbors, so that a processor can work on several of them
+    // at once in a sweep that goes from cell to neighboring cell.
+    const auto z_extent = static_cast<std::uint64_t>(extent_.z);
+    const auto y_extent = static_cast<std::uint64_t>(extent_.y);
+    const auto plane_of = [&](std::size_t i) {
+        const std::uint64_t row = i / z_extent;
+        return row / y_extent + row % y_extent + i % z_extent;
+    };
+    std::vector<std::size_t> begin(static_cast<std::size_t>(extent_.x + extent_.y + extent_.z), 0);
+    for (std::size_t i = 0; i < index_.size(); ++i) {
+        if (index_[i] >= 0) ++begin[plane_of(i) + 1];
+    }
+    for (std::size_t p = 1; p < begin.size(); ++p) begin[p] += begin[p - 1];
+    std::vector<std::uint64_t> cells(begin.back());
     for (std::size_t i = 0; i < index_.size(); ++i) {
         if (index_[i] < 0) continue;
-        index_[i] = count++;
-        cells.push_back(i);
+        const std::size_t number = begin[plane_of(i)]++;
+        index_[i] = static_cast<std::int32_t>(number);
+        cells[number] = i;
     }
     neighbors_.resize(cells.size());
-    const auto z_extent = static_cast<std::uint64_t>(extent_.z);
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const auto row = static_cast<int>(cells[c] / z_extent);
         const glm::ivec3 voxel(row / extent_.y, row % extent_.y, static_cast<int>(cells[c] % z_extent));
