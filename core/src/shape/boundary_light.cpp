@@ -8,7 +8,7 @@ namespace skinglow::detail {
 namespace {
 
 /// A ghost takes what lies within this distance of it along the surface, squared, in cells: the nearest almost
-/// alone. A wider mean carries light over the edge of a shadow, by a third in blue.
+/// alone. A wider mean carries light over the edge of a shadow, by up to four tenths of the error in blue.
 constexpr float max_aside_sq = 1.2F;
 constexpr float narrowness = 20;
 
