@@ -15,15 +15,18 @@ if TYPE_CHECKING:
 
 
 class Session:
-    """State kept between updates. Undo and load invalidate it: they replace all data."""
+    """State kept between updates. Undo and load invalidate it: they replace all data.
+
+    Objects and node groups are keys by identity.key_of.
+    """
 
     def __init__(self) -> None:
         #: (node group, depsgraph mode) to the contents of its images.
         self.atlases: dict[tuple[str, str], Atlas] = {}
         #: Skin to what is wrong with it, as text; '*' is what concerns no single skin.
         self.faults: dict[str, str] = {}
-        #: (node group, row) to the name and library of the object that owns the row.
-        self.owners: dict[tuple[str, int], tuple[str, str | None]] = {}
+        #: (node group, row) to the object that owns the row.
+        self.owners: dict[tuple[str, int], str] = {}
         #: Frozen skin to the frame at which the viewport was last looked at, and what its light depends on there.
         self.marks: dict[str, tuple[int, str]] = {}
         self.rendering = False

@@ -19,6 +19,7 @@ import numpy as np
 
 from .. import blender_version
 from ..errors import SkinError
+from ..identity import key_of
 from ..live.frozen_update import mark_of
 from ..live.live_update import update_scene
 from ..read.scene_reading import ROW_PROPERTY, read_scene
@@ -92,7 +93,7 @@ class _Part:
 
     def take(self, shown: dict[str, _Shown]) -> bool:
         """Returns whether these texels have the layout of those before; takes theirs if not."""
-        for each in (shown[obj.name_full] for obj in self.skins if obj.name_full in shown):
+        for each in (shown[key_of(obj)] for obj in self.skins if key_of(obj) in shown):
             if (each.layout, len(each.texels)) != (self.layout, self.width):
                 is_first = not self.width
                 self.layout, self.width = each.layout, len(each.texels)
@@ -103,8 +104,8 @@ class _Part:
         """Writes the image of a frame, complete under its name or not at all."""
         rows, scales = np.zeros((self.rows, max(self.width, 1), 4), np.float32), np.zeros((self.rows, 2), np.float32)
         for obj in self.skins:
-            if obj.name_full in shown:
-                row, each = obj.skinglow.row, shown[obj.name_full]
+            if key_of(obj) in shown:
+                row, each = obj.skinglow.row, shown[key_of(obj)]
                 rows[row], scales[row] = each.texels, each.scale
         self.partial.mkdir(parents=True, exist_ok=True)
         _write_image(self.partial / FILE_NAME.format(number), frozen_pixels(rows, scales))
@@ -154,9 +155,9 @@ class Freezing:
         for part in self.parts:
             for obj in part.skins:
                 row = obj.skinglow.row
-                if obj.name_full in shown or row in part.marks:
+                if key_of(obj) in shown or row in part.marks:
                     before = part.marks.get(row, " " * (MARK_LENGTH * (self.frame - self.first)))
-                    part.marks[row] = before + marks.get(obj.name_full, "").ljust(MARK_LENGTH)
+                    part.marks[row] = before + marks.get(key_of(obj), "").ljust(MARK_LENGTH)
             try:
                 part.write(file_number(self.frame, self.first), shown)
             except OSError as error:
@@ -356,7 +357,7 @@ def _shown_in_render(scene: bpy.types.Scene) -> dict[str, _Shown]:
             return
         faults.extend(SESSION.faults.values())
         for obj, shown in _rows_shown(depsgraph):
-            before = found.setdefault(obj.name_full, shown)
+            before = found.setdefault(key_of(obj), shown)
             if not np.array_equal(before.texels, shown.texels) or before.scale != shown.scale:
                 faults.append(
                     f"{obj.name}: view layers light it differently, and a frozen material can show one of them: "
@@ -380,7 +381,7 @@ def _shown_in_render(scene: bpy.types.Scene) -> dict[str, _Shown]:
 def _rows_shown(depsgraph: bpy.types.Depsgraph) -> Iterator[tuple[bpy.types.Object, _Shown]]:
     for obj, skin in SESSION.reading[1].skins:
         group = obj.skinglow.group
-        atlas = SESSION.atlases.get((group.name_full, depsgraph.mode)) if group is not None else None
+        atlas = SESSION.atlases.get((key_of(group), depsgraph.mode)) if group is not None else None
         if atlas is not None and skin.key in atlas.tables:
             scale, _width, _row, strength = obj[ROW_PROPERTY]
             yield obj, _Shown(atlas.pixels[obj.skinglow.row].copy(), (scale, strength), atlas.layout)

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ..errors import SkinError
+from ..identity import key_of
 from ..read.measured_size import is_reshaped
 from ..read.mesh_reading import evaluated_mesh, vertices_of_slots
 from ..session import SESSION
@@ -36,7 +37,7 @@ def health(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None = None) 
     faults = quick_faults(obj)
     if not any(fault.remedy == MEASURE for fault in faults):
         faults += _thickness_faults(obj, depsgraph)
-    told = SESSION.faults.get(obj.name_full)
+    told = SESSION.faults.get(key_of(obj))
     if told is not None and not faults:
         faults.append(Fault(told, REPAIR))
     return faults
@@ -74,9 +75,9 @@ def _has_reference(settings: bpy.types.PropertyGroup) -> bool:
 
 def _frozen_faults(obj: bpy.types.Object, group: bpy.types.NodeTree) -> list[Fault]:
     """At the frame that the viewport showed last; none before it was looked at."""
-    if obj.name_full not in SESSION.marks:
+    if key_of(obj) not in SESSION.marks:
         return []
-    frame, mark = SESSION.marks[obj.name_full]
+    frame, mark = SESSION.marks[key_of(obj)]
     first, last = frozen_frames(group)
     if shown_image(group) is not None and not frozen_file(group, frame).is_file():
         return [Fault(f"Its frozen image {frozen_file(group, frame)} is missing", FREEZE_AGAIN)]

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ..errors import core
+from ..identity import key_of
 from ..read.scene_lights import SceneLight, make_light
 from ..read.scene_reading import SceneReading, Skin, read_scene, read_skin
 from ..read.scene_world import World
@@ -32,7 +33,7 @@ def light_report(
               scene's occlusion is on and the mode is physical
     reason    why its weight is zero, or ""
     note      what of it is not supported, or ""
-    object    name, with its library, of the object to select for it: of an instance, its instancer; "" for the world
+    object    key (identity.key_of) of the object to select for it: of an instance, its instancer; "" for the world
 
     reading   the scene as it was just read from this depsgraph; None: it is read here
     """
@@ -54,7 +55,7 @@ def light_report(
     for other in depsgraph.scene.objects:
         if other.type == "LIGHT" and other.name not in listed:
             hidden = _entry(other.name, other.data.type, reason=_why_hidden(other, depsgraph))
-            rows.append(hidden | {"distance": None, "angle": None, "object": other.name_full})
+            rows.append(hidden | {"distance": None, "angle": None, "object": key_of(other)})
     return rows
 
 

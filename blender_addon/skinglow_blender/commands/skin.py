@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from ..errors import SkinError
+from ..identity import key_of
 from ..live.file_upgrade import upgrade
 from ..live.live_update import Rebuilt, update_scene
 from ..read import measured_geometry, working_space, world_image
@@ -90,7 +91,7 @@ def make_skin(
         obj.update_tag(refresh={"OBJECT"})
         depsgraph = bpy.context.evaluated_depsgraph_get()
         rebuilt = tuple(r for r in update_scene(depsgraph) if r.skin == obj.name)
-        fault = SESSION.faults.get(obj.name_full)
+        fault = SESSION.faults.get(key_of(obj))
         if fault is not None:
             raise SkinError(fault)
     return state_of(obj, depsgraph)._replace(rebuilt=rebuilt)
@@ -122,8 +123,8 @@ def state_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SkinState
 def table_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Table | None:
     """The table that a skin shows in depsgraphs of this mode; None before the first update."""
     group = obj.original.skinglow.group
-    atlas = SESSION.atlases.get((group.name_full, depsgraph.mode)) if group is not None else None
-    return atlas.tables.get(obj.original.name_full) if atlas is not None else None
+    atlas = SESSION.atlases.get((key_of(group), depsgraph.mode)) if group is not None else None
+    return atlas.tables.get(key_of(obj)) if atlas is not None else None
 
 
 def update(depsgraph: bpy.types.Depsgraph) -> list[Rebuilt]:
@@ -156,7 +157,7 @@ def lut(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
         return working_space.to_rec709(row[:, :3] if layout is None else shown_colors(row, size, layout))
     pair = image_pair(group, depsgraph.mode)
     image = shown_image(group)
-    atlas = SESSION.atlases.get((group.name_full, depsgraph.mode))
+    atlas = SESSION.atlases.get((key_of(group), depsgraph.mode))
     if image not in pair and atlas is not None:
         image = pair[atlas.front]
     if image is None:

@@ -6,6 +6,7 @@ from typing import Any
 
 import bpy
 
+from ..identity import key_of
 from ..preferences import follows_lights
 from ..read import world_image
 from ..session import SESSION
@@ -120,7 +121,7 @@ def on_save(_first: Any, _second: Any) -> None:  # noqa: ANN401
 def show_viewport() -> None:
     """Restores the viewport's images in the nodes."""
     for group in skin_groups():
-        atlas = SESSION.atlases.get((group.name_full, "VIEWPORT"))
+        atlas = SESSION.atlases.get((key_of(group), "VIEWPORT"))
         if atlas is not None:
             atlas.show(group)
 

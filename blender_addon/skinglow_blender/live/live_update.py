@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from ..errors import SkinError
+from ..identity import key_of
 from ..read import working_space
 from ..read.scene_lights import FIELDS
 from ..read.scene_reading import ROW_PROPERTY, SceneReading, Skin, read_scene
@@ -61,7 +62,7 @@ def update_scene(
         if group is None:
             faults[skin.key] = f"{skin.name}: its node group was deleted: make the skin again"
             continue
-        groups.setdefault(group.name_full, (group, []))[1].append((obj, skin))
+        groups.setdefault(key_of(group), (group, []))[1].append((obj, skin))
     for group, members in groups.values():
         if is_frozen(group):
             follow_frozen(group, members, faults)
@@ -90,7 +91,7 @@ def _update_group(
     _make_room(group, max(skin.base[1] for _obj, skin in members), 1 + max(o.skinglow.row for o, _skin in members))
     atlas = _atlas(group, mode)
     before = {key: (signature, atlas.rows.get(key)) for key, signature in atlas.signatures.items()}
-    other = SESSION.atlases.get((group.name_full, "RENDER" if mode == "VIEWPORT" else "VIEWPORT"))
+    other = SESSION.atlases.get((key_of(group), "RENDER" if mode == "VIEWPORT" else "VIEWPORT"))
     kept = _keep(atlas, other, members) if only_live else set()
     # Nodes cannot be added while rendering, nor to a group from a library.
     fixed = SESSION.rendering or group.library is not None
@@ -201,7 +202,7 @@ def _has_surface_weights(group: bpy.types.NodeTree) -> bool:
 
 
 def _atlas(group: bpy.types.NodeTree, mode: str) -> Atlas:
-    key = (group.name_full, mode)
+    key = (key_of(group), mode)
     atlas = SESSION.atlases.get(key)
     if atlas is None or not atlas.fits(group):
         atlas = SESSION.atlases[key] = Atlas(group, mode)
@@ -212,19 +213,19 @@ def _separate_rows(group: bpy.types.NodeTree, members: list[tuple[bpy.types.Obje
     """Assigns a row to each skin that has none or shares one because it was copied from another skin."""
     for obj, _skin in members:
         settings = obj.skinglow
-        me = (obj.name, obj.library.filepath if obj.library is not None else None)
+        me = key_of(obj)
         if settings.row < 0 or _other_owner(group, settings.row, me):
             used = {o.skinglow.row for o in bpy.data.objects if o.skinglow.group == group}
             settings.row = next(i for i in range(len(used) + 1) if i not in used)
-        SESSION.owners[group.name_full, settings.row] = me
+        SESSION.owners[key_of(group), settings.row] = me
 
 
-def _other_owner(group: bpy.types.NodeTree, row: int, me: tuple[str, str | None]) -> bool:
+def _other_owner(group: bpy.types.NodeTree, row: int, me: str) -> bool:
     """Whether a row belongs to another object that still exists, in any scene, and still uses it."""
-    owner = SESSION.owners.get((group.name_full, row))
+    owner = SESSION.owners.get((key_of(group), row))
     if owner is None or owner == me:
         return False
-    other = bpy.data.objects.get(owner)
+    other = next((obj for obj in bpy.data.objects if key_of(obj) == owner), None)
     return other is not None and other.skinglow.group == group and other.skinglow.row == row
 
 

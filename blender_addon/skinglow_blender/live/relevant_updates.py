@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import bpy
 
+from ..identity import key_of
 from ..session import SESSION
 from ..show.group_following import may_change_groups
 
@@ -50,6 +51,6 @@ def _may_change_skins(changed: bpy.types.ID) -> bool:
         changed.type == "LIGHT"
         or changed.is_instancer
         or changed.skinglow.enabled
-        or changed.original.name_full in SESSION.reference_objects
+        or key_of(changed) in SESSION.reference_objects
         or any(modifier.type == "NODES" for modifier in changed.modifiers)
     )

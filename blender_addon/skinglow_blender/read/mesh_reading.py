@@ -9,6 +9,8 @@ from typing import NamedTuple
 import bpy
 import numpy as np
 
+from ..identity import key_of
+
 _versions = count()
 
 
@@ -38,7 +40,7 @@ class MeshCache:
     def start(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Starts a pass over a depsgraph; meshes that the last pass did not read are dropped."""
         self._before, self._now, self._by_address = self._now, {}, {}
-        self._reported = {update.id.name_full for update in depsgraph.updates if update.is_updated_geometry}
+        self._reported = {key_of(update.id) for update in depsgraph.updates if update.is_updated_geometry}
 
     def read(self, obj: bpy.types.Object) -> MeshArrays:
         """The arrays of an evaluated object."""
@@ -49,7 +51,7 @@ class MeshCache:
                 return self._by_address[address]
             vertices = vertices_of(mesh)
             # Instances of one object may show several meshes of the same size: distinguished by their order.
-            name = (obj.original.name_full, len(vertices), len(mesh.loops), len(mesh.polygons))
+            name = (key_of(obj), len(vertices), len(mesh.loops), len(mesh.polygons))
             key = next((*name, i) for i in count() if (*name, i) not in self._now)
             arrays = self._now[key] = self._arrays(obj, mesh, address, vertices, self._before.get(key))
             if address:
@@ -60,7 +62,7 @@ class MeshCache:
         self, obj: bpy.types.Object, mesh: bpy.types.Mesh, address: int, vertices: np.ndarray, old: MeshArrays | None
     ) -> MeshArrays:
         same_positions = old is not None and np.array_equal(old.vertices, vertices)
-        reported = not self._reported.isdisjoint((obj.name_full, mesh.name_full))
+        reported = not self._reported.isdisjoint((key_of(obj), key_of(mesh)))
         if same_positions and address and address == old.address and not reported:
             return old
         triangles = triangles_of(mesh)

@@ -11,6 +11,7 @@ from mathutils import Matrix
 
 from .. import blender_version
 from ..errors import core
+from ..identity import key_of
 from . import working_space
 from .light_nodes import node_factor
 
@@ -23,7 +24,7 @@ class SceneLight(NamedTuple):
 
     name: str  #: for people: an instance is named after its light and its instancer
     object_name: str  #: of the light object, also of an instance
-    shown_by: str  #: key (name with library) of the object to select for it: of an instance, its instancer
+    shown_by: str  #: key of the object to select for it: of an instance, its instancer
     signature: tuple  #: everything its emission depends on (FIELDS); equal signatures emit equal light
     receivers: frozenset[str] | None  #: keys (Skin.key) of the only objects it lights; None: all
     excluded: frozenset[str]  #: keys of objects it does not light
@@ -83,7 +84,7 @@ def read_light(
     receivers, excluded = _linked_objects(obj)
     unlit_reason = _unlit_reason(obj, kind, direction)
     casts_shadows = blender_version.light_casts_shadows(light)
-    shown_by = (instancer or obj).original.name_full
+    shown_by = key_of(instancer or obj)
     note = note or gamut_note
     return SceneLight(name, obj.name, shown_by, signature, receivers, excluded, unlit_reason, note, casts_shadows)
 
@@ -184,7 +185,7 @@ def _linked_objects(obj: bpy.types.Object) -> tuple[frozenset[str] | None, froze
         (collection.collection_children, (c.all_objects for c in collection.children)),
     ):
         for state, objects in zip(states, members, strict=True):
-            keys = {o.original.name_full for o in objects}
+            keys = {key_of(o) for o in objects}
             (included if state.light_linking.link_state == "INCLUDE" else excluded).update(keys)
     # With exclusions alone the light illuminates everything else.
     return (frozenset(included - excluded) if included else None), frozenset(excluded)

@@ -8,6 +8,7 @@ import bpy
 from mathutils import Matrix, Vector
 
 from ..blender_version import output_target
+from ..identity import key_of
 from ..skin_settings import TISSUE_SLIDERS, as_typed
 from .measured_size import MEASURED_CONE, MEASURED_UNIT, scale_since_measured
 from .scene_lights import SceneLight, read_light
@@ -22,7 +23,7 @@ class Skin(NamedTuple):
     """The evaluated settings of one skin."""
 
     name: str  #: of the object
-    key: str  #: name with library: unique in the file
+    key: str  #: identity.key_of the object
     mode: str
     weights: str  #: 'OBJECT' or 'SURFACE'; always 'OBJECT' where the mode is not physical
     live: bool
@@ -97,7 +98,7 @@ def read_skin(obj: bpy.types.Object, matrix: Matrix) -> Skin:
     world_size = abs(matrix.to_3x3().determinant()) ** (1.0 / 3.0)
     return Skin(
         name=obj.name,
-        key=obj.original.name_full,
+        key=key_of(obj),
         mode=settings.mode,
         weights=weights,
         live=settings.live,
@@ -149,7 +150,7 @@ def _triple(vector: bpy.types.bpy_prop_array) -> tuple[float, float, float]:
 
 
 def _key_of(obj: bpy.types.Object | None) -> str:
-    return obj.original.name_full if obj is not None else ""
+    return key_of(obj) if obj is not None else ""
 
 
 def _point_of(obj: bpy.types.Object, bone: str) -> tuple[float, float, float]:

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ..errors import SkinError, core
+from ..identity import key_of
 from ..read.mesh_reading import MeshCache
 from ..read.scene_lights import SceneLight, make_light
 from ..read.scene_reading import SceneReading, Skin
@@ -129,7 +130,7 @@ def _read_pass(depsgraph: bpy.types.Depsgraph, skins: dict[str, Skin], cache: Me
         # Collections hidden in the viewport by their eye icon are still in the viewport's depsgraph.
         if layer is not None and not (parent if instance.is_instance else obj).original.visible_get(view_layer=layer):
             continue
-        key = obj.original.name_full
+        key = key_of(obj)
         matrix = instance.matrix_world
         is_skin = key in skins and key not in found.far_sides
         if is_skin:

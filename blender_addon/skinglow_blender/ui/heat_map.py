@@ -12,6 +12,7 @@ from bpy.props import BoolProperty
 from gpu_extras.batch import batch_for_shader
 
 from ..errors import SkinError, core
+from ..identity import key_of
 from ..read.measured_size import scale_since_measured
 from ..read.mesh_reading import evaluated_mesh, triangles_of, vertices_of
 from ..thickness import thickness_attribute
@@ -70,14 +71,14 @@ def draw_skins() -> None:
         for obj in skins:
             evaluated = obj.evaluated_get(depsgraph)
             key = (limit, tuple(map(tuple, evaluated.matrix_world.to_3x3())))
-            known = _batches.get(obj.name_full)
+            known = _batches.get(key_of(obj))
             if known is None or known[0] != key:
                 try:
                     positions, colors, triangles = colored_triangles(evaluated, limit)
                 except SkinError:  # without the core
                     continue
                 fields = {"pos": positions, "color": colors}
-                known = _batches[obj.name_full] = (key, batch_for_shader(shader, "TRIS", fields, indices=triangles))
+                known = _batches[key_of(obj)] = (key, batch_for_shader(shader, "TRIS", fields, indices=triangles))
             with gpu.matrix.push_pop():
                 gpu.matrix.multiply_matrix(evaluated.matrix_world)
                 shader.bind()
@@ -139,7 +140,7 @@ def _on_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph | None = 
     """Drops the colors of what changed its shape."""
     if not _batches:
         return
-    changed = {u.id.original.name_full for u in depsgraph.updates if u.is_updated_geometry} if depsgraph else None
+    changed = {key_of(u.id) for u in depsgraph.updates if u.is_updated_geometry} if depsgraph else None
     for name in list(_batches):
         if changed is None or name in changed:
             del _batches[name]

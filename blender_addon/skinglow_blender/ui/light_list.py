@@ -13,6 +13,7 @@ from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty, In
 
 from ..commands.light_listing import light_report
 from ..errors import SkinError
+from ..identity import key_of
 from ..live.guard import faults_shown
 from ..read.scene_reading import SceneReading
 from ..session import SESSION
@@ -57,7 +58,7 @@ class LightList(bpy.types.PropertyGroup):
 
 def list_of(obj: bpy.types.Object, context: bpy.types.Context) -> LightList | None:
     """A skin's list as last filled, or None; requests an update if it is out of date. For draw()."""
-    key = obj.name_full
+    key = key_of(obj)
     stamp = (SESSION.updates, context.scene.name, context.view_layer.name)
     if SESSION.filled_lists.get(key) != stamp:
         SESSION.requested_lists[key] = stamp
@@ -73,7 +74,7 @@ def fill_requested() -> int:
     filled = 0
     while SESSION.requested_lists:
         key, stamp = SESSION.requested_lists.popitem()
-        obj = next((o for o in bpy.data.objects if o.name_full == key), None)
+        obj = next((o for o in bpy.data.objects if key_of(o) == key), None)
         layer = _view_layer(*stamp[1:])
         if obj is None or layer is None or layer.depsgraph is None:
             continue
@@ -117,7 +118,7 @@ def _view_layer(scene: str, layer: str) -> bpy.types.ViewLayer | None:
 
 
 def _new_list(lists: bpy.types.bpy_prop_collection, key: str) -> LightList:
-    there = {obj.name_full for obj in bpy.data.objects}
+    there = {key_of(obj) for obj in bpy.data.objects}
     for i in reversed(range(len(lists))):
         if lists[i].name not in there:
             SESSION.filled_lists.pop(lists[i].name, None)

@@ -4,6 +4,7 @@
 import bpy
 
 from ..commands.skin import table_of
+from ..identity import key_of
 from . import light_list
 from .locations import InObjectProperties, InSidebar, SkinPanel
 from .wrapped_text import draw_wrapped
@@ -43,7 +44,7 @@ class SKINGLOW_UL_lights(bpy.types.UIList):  # noqa: N801  Blender's naming
         if row.kind == "WORLD":
             return
         button = line.operator("skinglow.select_light", text="", icon="RESTRICT_SELECT_OFF", emboss=False)
-        button.light = row.object
+        button.key, button.light = row.object, row.name
 
 
 class _Lights(SkinPanel):
@@ -83,7 +84,7 @@ def draw_lights(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.
         return
     rows = min(max(len(lights.rows), MIN_ROWS), MAX_ROWS)
     layout.template_list(
-        SKINGLOW_UL_lights.bl_idname, obj.name_full, lights, "rows", lights, "active", rows=rows, maxrows=MAX_ROWS
+        SKINGLOW_UL_lights.bl_idname, key_of(obj), lights, "rows", lights, "active", rows=rows, maxrows=MAX_ROWS
     )
     if 0 <= lights.active < len(lights.rows):
         _draw_details(layout, lights.rows[lights.active], obj.skinglow.mode == "PHYSICAL", context)

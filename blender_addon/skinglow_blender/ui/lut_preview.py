@@ -8,6 +8,7 @@ from mathutils import Color
 
 from ..commands.skin import lut
 from ..errors import SkinError, core
+from ..identity import key_of
 from ..session import SESSION
 
 #: Blender draws all icons as squares.
@@ -21,12 +22,12 @@ def icon_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> tuple[int,
     (0, 0) if there is none.
     """
     group = obj.skinglow.group
-    atlas = SESSION.atlases.get((group.name_full, depsgraph.mode)) if group is not None else None
-    signature = atlas.signatures.get(obj.name_full) if atlas is not None else None
+    atlas = SESSION.atlases.get((key_of(group), depsgraph.mode)) if group is not None else None
+    signature = atlas.signatures.get(key_of(obj)) if atlas is not None else None
     if signature is None or _previews is None:
         return 0, 0.0
-    preview = _previews.get(obj.name_full) or _previews.new(obj.name_full)
-    drawn = SESSION.thumbnails.get(obj.name_full)
+    preview = _previews.get(key_of(obj)) or _previews.new(key_of(obj))
+    drawn = SESSION.thumbnails.get(key_of(obj))
     if drawn is None or drawn[0] != signature:
         try:
             table = lut(obj, depsgraph)
@@ -41,7 +42,7 @@ def icon_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> tuple[int,
         ]
         preview.image_size = (WIDTH, HEIGHT)
         preview.image_pixels_float.foreach_set(pixels.ravel())
-        drawn = SESSION.thumbnails[obj.name_full] = (signature, obj.skinglow.max_thickness_mm * entries / len(table))
+        drawn = SESSION.thumbnails[key_of(obj)] = (signature, obj.skinglow.max_thickness_mm * entries / len(table))
     return preview.icon_id, drawn[1]
 
 

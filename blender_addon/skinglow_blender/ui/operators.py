@@ -9,6 +9,7 @@ from bpy.props import BoolProperty, StringProperty
 from ..commands import povray_export, skin
 from ..commands.health import health, repair
 from ..errors import SkinError
+from ..identity import key_of
 from ..session import SESSION
 from ..show.lut_image import skin_groups
 
@@ -172,7 +173,8 @@ class SKINGLOW_OT_select_light(_SkinOperator, bpy.types.Operator):  # noqa: N801
     bl_description = "Select this light in the scene and keep the skin as the active object"
     bl_options = {"REGISTER", "UNDO", "INTERNAL"}
 
-    light: StringProperty(name="Light", description="Name, with its library, of the light object or of its instancer")
+    light: StringProperty(name="Light", description="Name of the light")
+    key: StringProperty(name="Key", description="Which object to select; empty: the one of that name")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -181,9 +183,12 @@ class SKINGLOW_OT_select_light(_SkinOperator, bpy.types.Operator):  # noqa: N801
         cls.poll_message_set("Only available in Object Mode")
         return False
 
+    def _is_meant(self, obj: bpy.types.Object) -> bool:
+        return key_of(obj) == self.key if self.key else obj.name == self.light
+
     def execute(self, context: bpy.types.Context) -> set[str]:
         def select() -> str:
-            light = next((obj for obj in context.view_layer.objects if obj.name_full == self.light), None)
+            light = next((obj for obj in context.view_layer.objects if self._is_meant(obj)), None)
             if light is None:
                 raise SkinError(f"'{self.light}' is not in this view layer: enable its collection to select it")
             if light.hide_select or not light.visible_get():

@@ -6,6 +6,7 @@ import bpy.utils.previews
 import numpy as np
 
 from ..errors import SkinError, core
+from ..identity import key_of
 from ..thickness.thickness_attribute import SUMMARY
 
 #: Blender draws all icons as squares.
@@ -21,15 +22,15 @@ def histogram_icon(mesh: bpy.types.Mesh) -> int:
     if summary is None or _previews is None:
         return 0
     numbers = tuple(summary)
-    preview = _previews.get(mesh.name_full) or _previews.new(mesh.name_full)
-    if _drawn.get(mesh.name_full) != numbers:
+    preview = _previews.get(key_of(mesh)) or _previews.new(key_of(mesh))
+    if _drawn.get(key_of(mesh)) != numbers:
         try:
             pixels = histogram_pixels(numbers[0], numbers[5:])
         except SkinError:  # without the core
             return 0
         preview.image_size = (SIZE, SIZE)
         preview.image_pixels_float.foreach_set(pixels.ravel())
-        _drawn[mesh.name_full] = numbers
+        _drawn[key_of(mesh)] = numbers
     return preview.icon_id
 
 

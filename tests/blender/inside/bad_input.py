@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 import skinglow as sg
 import skinglow_blender as sb
+from skinglow_blender.identity import key_of
 from skinglow_blender.session import SESSION
 
 from inside.scenes import add_light, assert_shows, camera_above, depsgraph, paper_table, patch
@@ -57,7 +58,7 @@ def check_missing_image_keeps_the_last_good_lookup(work):
     obj.skinglow.base_image = image
     obj.skinglow.base = "IMAGE"
     graph = depsgraph()
-    assert "check that its file" in SESSION.faults["Patch"]
+    assert "check that its file" in SESSION.faults[key_of(bpy.data.objects["Patch"])]
     np.testing.assert_array_equal(sb.lut(obj, graph)[:1], before[:1])
     refused(sb.SkinError, "check that its file", sb.update, graph)
     obj.skinglow.base = "BUILTIN"
@@ -76,7 +77,7 @@ def check_absent_core(_work):
     try:
         key.data.color = (0.0, 0.0, 1.0)
         graph = depsgraph()
-        assert "compiled core" in SESSION.faults["Patch"]
+        assert "compiled core" in SESSION.faults[key_of(bpy.data.objects["Patch"])]
         np.testing.assert_array_equal(sb.lut(obj, graph), before)
         refused(sb.SkinError, "compiled core", sb.update, graph)
         refused(sb.SkinError, "compiled core", sb.make_skin, patch("Other"))
@@ -95,7 +96,7 @@ def check_lights_that_the_core_refuses(_work):
     before = sb.lut(obj, depsgraph())
     wild.data.energy = float("inf")
     graph = depsgraph()
-    assert "Wild" in SESSION.faults["Patch"], SESSION.faults
+    assert "Wild" in SESSION.faults[key_of(bpy.data.objects["Patch"])], SESSION.faults
     np.testing.assert_array_equal(sb.lut(obj, graph), before)
     bpy.data.objects.remove(wild)
     assert_shows(obj, paper_table([key]))

@@ -4,6 +4,8 @@ import bpy
 import numpy as np
 import skinglow_blender as sb
 from skinglow_blender.batch import rigs
+from skinglow_blender.identity import HAS_UID, key_of
+from skinglow_blender.session import SESSION
 
 from inside.scenes import add_light, camera_above, depsgraph, link, patch, render_settings
 
@@ -37,6 +39,36 @@ def check_export_of_two_skins_of_one_name(work):
     assert len({folder.name.casefold() for folder in folders}) == 3
     meshes = {(folder / "mesh.inc").read_text() for folder in folders}
     assert len(meshes) == 3
+
+
+def check_local_object_of_the_full_name_of_a_linked_one(work):
+    """Blender's own name for a linked object may be the plain name of another."""
+    linked = linked_copy(work, "Head")
+    light = add_light(location=(0.0, 0.0, -3.0))
+    local = patch(linked.name_full, location=(0.0, 0.0, 2.0))
+    assert local.name_full == linked.name_full
+    sb.make_skin(local, thickness=THIN, mode="physical")
+    for _ in range(2):
+        assert not sb.update(depsgraph())
+        distances = [sb.light_report(obj, depsgraph())[0]["distance"] for obj in (linked, local)]
+        assert distances == [3.0, 5.0], distances
+        near, far = (sb.lut(obj, depsgraph()) for obj in (linked, local))
+        np.testing.assert_allclose(far, near * (3.0 / 5.0) ** 2, rtol=0.01)
+        light.data.color = (1.0, 0.2, 0.1)
+        sb.update(depsgraph())
+
+
+def check_renaming_computes_nothing(_work):
+    obj = patch("First")
+    add_light()
+    sb.make_skin(obj, thickness=THIN, mode="physical")
+    shown = sb.lut(obj, depsgraph())
+    updates = SESSION.atlases.copy()
+    obj.name = "Second"
+    rebuilt = sb.update(depsgraph())
+    assert not HAS_UID or not rebuilt
+    assert SESSION.atlases == updates
+    np.testing.assert_array_equal(sb.lut(obj, depsgraph()), shown)
 
 
 def check_light_linking_by_object(work):
@@ -82,7 +114,7 @@ def check_instance_of_a_light_in_a_rig(_work):
     rigs.check_lights(ready, scene, {light.name})
     report = sb.light_report(obj, depsgraph())
     (row,) = (row for row in report if np.any(row["weight"]))
-    assert (row["name"], row["object"]) == ("Key in Box in Far in Room", "Far in Room")
+    assert (row["name"], row["object"]) == ("Key in Box in Far in Room", key_of(instancer))
     bpy.context.view_layer.objects.active = obj
-    assert bpy.ops.skinglow.select_light(light=row["object"]) == {"FINISHED"}
+    assert bpy.ops.skinglow.select_light(light=row["name"], key=row["object"]) == {"FINISHED"}
     assert instancer.select_get()

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import skinglow_blender as sb
+from skinglow_blender.identity import key_of
 from skinglow_blender.session import SESSION
 from skinglow_blender.ui import light_list
 
@@ -115,12 +116,12 @@ def check_a_list_for_each_skin_and_none_for_the_gone(_work):
     redraw(second)
     redraw(first)
     lists = bpy.context.window_manager.skinglow_lists
-    assert sorted(one.name for one in lists) == sorted((first.name, second.name))
+    assert sorted(one.name for one in lists) == sorted(map(key_of, (first, second)))
     bpy.data.objects.remove(first)
     third = patch("Third")
     sb.make_skin(third, thickness=[1.0] * 4, mode="paper")
     redraw(third)
-    assert sorted(one.name for one in lists) == sorted((second.name, "Third"))
+    assert sorted(one.name for one in lists) == sorted(map(key_of, (second, third)))
 
 
 def check_unregistering_leaves_no_list(_work):
