@@ -12,8 +12,8 @@ namespace {
 
 constexpr double least = 0.01;
 constexpr double per_fall = 0.018;
-constexpr double per_fall_of_cell = 0.020;
-constexpr double cell_power = 2.4;
+constexpr double per_fall_of_cell = 0.030;
+constexpr double cell_power = 1.3;
 /// Smooth surfaces are further off: SP3 has their reflectance as moments alone.
 constexpr double of_smooth = 1.15;
 /// Of a tissue, between the nodes.
