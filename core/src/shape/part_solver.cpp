@@ -31,7 +31,7 @@ PartSolver::PartSolver(const FleshSurface& surface, const SurfaceSites& all,
 
 PartSolver::PartSolver(const FleshSurface& surface, const SurfaceSites& all,
                        std::span<const std::uint32_t> sites, const LaneMedium& medium,
-                       const PartOptions& options, VoxelGrid grid)
+                       const PartOptions& options, const VoxelGrid& grid)
     : PartSolver(surface, all, sites, medium, options, grid, boundary_samples(surface, grid)) {}
 
 PartSolver::PartSolver(const FleshSurface& surface, const SurfaceSites& all,

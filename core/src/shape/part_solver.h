@@ -63,7 +63,7 @@ class PartSolver {
 
   private:
     PartSolver(const FleshSurface& surface, const SurfaceSites& all, std::span<const std::uint32_t> sites,
-               const LaneMedium& medium, const PartOptions& options, VoxelGrid grid);
+               const LaneMedium& medium, const PartOptions& options, const VoxelGrid& grid);
     PartSolver(const FleshSurface& surface, const SurfaceSites& all, std::span<const std::uint32_t> sites,
                const LaneMedium& medium, const PartOptions& options, VoxelGrid grid,
                const BoundarySamples& samples);

@@ -145,8 +145,8 @@ const Reentry& ShapeSolver::reentry() const {
 }
 
 std::vector<std::uint8_t> ShapeSolver::wanted_vertices(bool reentries) const {
-    if (sites_.are_vertices()) return std::vector<std::uint8_t>(body_.welded_of().size(), 1);
-    std::vector<std::uint8_t> wanted(body_.welded_of().size(), 0);
+    std::vector<std::uint8_t> wanted(body_.welded_of().size(), sites_.are_vertices() ? 1 : 0);
+    if (sites_.are_vertices()) return wanted;
     for (const auto& part : parts_) {
         if (const PartSolver* solver = part->solver.ready()) {
             solver->mark_vertices(wanted);

@@ -69,7 +69,8 @@ VoxelGrid::VoxelGrid(const FleshSurface& surface, std::span<const glm::vec3> cen
 }
 
 glm::ivec3 VoxelGrid::voxel_of(const glm::vec3& point) const {
-    return glm::ivec3(glm::floor((point - low_) / cell_));
+    glm::ivec3 voxel(glm::floor((point - low_) / cell_));
+    return voxel;
 }
 
 void VoxelGrid::fit(std::span<const glm::vec3> centers, double margin) {
