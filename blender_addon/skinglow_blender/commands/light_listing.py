@@ -90,7 +90,7 @@ def _row(skin: Skin, scene_light: SceneLight, far_lights: frozenset[str]) -> dic
     if scene_light.name in far_lights:
         notes.append(f"more than {MAX_TERMS} lights: treated as distant")
     row = _entry(scene_light.name, scene_light.signature[1], scene_light.unlit_reason, "; ".join(filter(None, notes)))
-    row["visible"], row["object"] = visible, scene_light.shown_by
+    row["visible"], row["object"] = visible, key_of(scene_light.shown_by)
     if not row["reason"] and not scene_light.lights(skin.key):
         row["reason"] = "light linking excludes this object"
     try:

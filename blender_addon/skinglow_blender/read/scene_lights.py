@@ -24,7 +24,7 @@ class SceneLight(NamedTuple):
 
     name: str  #: for people: an instance is named after its light and its instancer
     object_name: str  #: of the light object, also of an instance
-    shown_by: str  #: key of the object to select for it: of an instance, its instancer
+    shown_by: bpy.types.Object  #: what to select for it, of an instance its instancer; invalid after undo or load
     signature: tuple  #: everything its emission depends on (FIELDS); equal signatures emit equal light
     receivers: frozenset[str] | None  #: keys (Skin.key) of the only objects it lights; None: all
     excluded: frozenset[str]  #: keys of objects it does not light
@@ -84,7 +84,7 @@ def read_light(
     receivers, excluded = _linked_objects(obj)
     unlit_reason = _unlit_reason(obj, kind, direction)
     casts_shadows = blender_version.light_casts_shadows(light)
-    shown_by = key_of(instancer or obj)
+    shown_by = (instancer or obj).original
     note = note or gamut_note
     return SceneLight(name, obj.name, shown_by, signature, receivers, excluded, unlit_reason, note, casts_shadows)
 
