@@ -26,7 +26,6 @@ from .ui import (
     freeze_operators,
     heat_map,
     light_list,
-    lut_preview,
     main_panel,
     material_operators,
     measuring_operators,
@@ -35,7 +34,7 @@ from .ui import (
     presets,
     slot_choice,
     thickness_operators,
-    thickness_preview,
+    thumbnails,
 )
 
 bl_info = {
@@ -82,7 +81,7 @@ _PARTS = (
     scene_settings,
     preferences,
     material_settings,
-    lut_preview,
+    thumbnails,
     light_list,
     operators,
     material_operators,
@@ -90,7 +89,6 @@ _PARTS = (
     measuring_operators,
     freeze_operators,
     thickness_operators,
-    thickness_preview,
     heat_map,
     presets,
     main_panel,

@@ -48,7 +48,7 @@ class Session:
         #: Skin to the (updates, scene, view layer) of its filled list of lights, and of the list that was asked for.
         self.filled_lists: dict[str, tuple[int, str, str]] = {}
         self.requested_lists: dict[str, tuple[int, str, str]] = {}
-        #: Skin to the signature of the table in its thumbnail, and the thickness at the thumbnail's right end, mm.
+        #: Thumbnail to what it was drawn from, and the thickness at its right end, mm.
         self.thumbnails: dict[str, tuple[tuple, float]] = {}
         #: The thickness measurement that runs in a thread.
         self.measuring: Measuring | None = None

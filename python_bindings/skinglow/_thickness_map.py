@@ -157,11 +157,11 @@ def _grow(image: NDArray[np.float32], covered: NDArray[np.bool_]) -> None:
 
 def sample_image(image: ArrayLike, uv: ArrayLike) -> NDArray[np.float64]:
     """Values (n,) of an image (height, width), bottom row first, at uv (n, 2): bilinear, at the border its texels."""
-    values, places = _finite("image", image, 2), _finite("uv", uv, 2)
-    if not values.size or places.shape[1] != 2:
-        raise ValueError(f"image {values.shape} and uv {places.shape} are not allowed: (h, w), not empty, and (n, 2)")
+    values, points = _finite("image", image, 2), _finite("uv", uv, 2)
+    if not values.size or points.shape[1] != 2:
+        raise ValueError(f"image {values.shape} and uv {points.shape} are not allowed: (h, w), not empty, and (n, 2)")
     height, width = values.shape
-    x, y = (np.clip(places[:, i] * n - 0.5, 0.0, n - 1.0) for i, n in ((0, width), (1, height)))
+    x, y = (np.clip(points[:, i] * n - 0.5, 0.0, n - 1.0) for i, n in ((0, width), (1, height)))
     left, low = (np.minimum(np.floor(v).astype(np.int64), max(n - 2, 0)) for v, n in ((x, width), (y, height)))
     right, high = np.minimum(left + 1, width - 1), np.minimum(low + 1, height - 1)
     across, up = x - left, y - low

@@ -55,9 +55,9 @@ def test_light_of_any_brightness_is_linear(scale, medium):
 def test_light_beyond_single_precision_is_refused(lobe):
     with pytest.raises(ValueError, match=r"irradiance\[\d+\] is 1e\+300; allowed: .* 1e30"):
         lobe.exitance(1e300 * LIGHT)
-    lamp = sg.Light("POINT", position=(0.0, 0.0, 50.0), power=1e300)
+    light = sg.Light("POINT", position=(0.0, 0.0, 50.0), power=1e300)
     with pytest.raises(ValueError, match="light at vertices"):
-        lobe.light([lamp])
+        lobe.light([light])
     with pytest.raises(ValueError, match="1e30"):
         lobe.light([], sg.Environment((1e30, 0.0, 0.0)))
 
@@ -68,7 +68,7 @@ def test_colors_beyond_single_precision_are_sums(lobe):
 
 
 @pytest.mark.parametrize(
-    "lamp",
+    "light",
     [
         sg.Light("POINT", position=(0.0, 0.0, 0.2), power=1.0, radius=0.01),  # in the flesh
         sg.Light("POINT", position=tuple(BODY[0][5]), power=1.0, radius=0.0),  # on a vertex
@@ -79,8 +79,8 @@ def test_colors_beyond_single_precision_are_sums(lobe):
         sg.Light("SUN", direction=(0.0, 0.0, -1.0), power=1.0, sun_angle=np.pi),
     ],
 )
-def test_lights_anywhere_give_finite_light(lobe, lamp):
-    lit = lobe.light([lamp])
+def test_lights_anywhere_give_finite_light(lobe, light):
+    lit = lobe.light([light])
     for values in (lit.exitance, lit.transmitted, lit.irradiance, lit.error):
         assert np.isfinite(values).all()
         assert values.min() >= 0.0
@@ -162,7 +162,7 @@ def test_shells_within_shells_are_inside(levels):
         (BODY[0] * 1e-30, BODY[1]),
         (BODY[0] + 1e30, BODY[1]),
     ],
-    ids=["a point", "a line", "flat", "a needle", "tiny", "all at one place far away"],
+    ids=["a point", "a line", "flat", "a needle", "tiny", "all at one point far away"],
 )
 def test_bodies_without_flesh_are_finite(body):
     found = sg.Shape(*body, **SKIN).exitance(np.ones(len(body[0])))

@@ -48,10 +48,10 @@ def test_same_texels_as_point_by_point(triangles: list, width: int, height: int)
     """Against the plain test of each texel with each triangle; those on an edge may go either way."""
     corners = np.array(triangles).reshape(-1, 3, 2)
     _image, covered = sg.bake_thickness(corners, np.ones(corners.shape[:2]), width, height, margin=0)
-    places = np.stack(np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height), -1)
+    points = np.stack(np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height), -1)
     surely, perhaps = np.zeros((height, width), bool), np.zeros((height, width), bool)
     for a, b, c in corners:
-        offsets = [(q - p, places - p) for p, q in ((a, b), (b, c), (c, a))]
+        offsets = [(q - p, points - p) for p, q in ((a, b), (b, c), (c, a))]
         sides = [edge[0] * offset[..., 1] - edge[1] * offset[..., 0] for edge, offset in offsets]
         area = (b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0]
         inside = np.min(np.array(sides) * np.sign(area), axis=0)

@@ -12,9 +12,10 @@ import numpy as np
 
 from ..commands import light_listing, skin
 from ..errors import SkinError
-from ..read.scene_reading import read_scene, read_skin
+from ..read.scene_reading import SceneReading, read_scene, read_skin
 from ..session import SESSION
 from ..show.frozen import frozen_file, is_frozen
+from ..table.occlusion import with_visible_fractions
 from .inputs import skin_values
 from .manifest import file_digest
 
@@ -59,17 +60,17 @@ def watching(scene: bpy.types.Scene) -> Iterator[Shown]:
 
 
 def _record(shown: Shown, depsgraph: bpy.types.Depsgraph) -> None:
-    reading = read_scene(depsgraph)
+    reading = with_visible_fractions(read_scene(depsgraph), depsgraph, {})
     shown.faults += SESSION.faults.values()
     shown.lights.update(light.object_name for light in reading.lights)
     for obj, _skin in reading.skins:
-        shown.skins.append(_skin_entry(obj, depsgraph))
+        shown.skins.append(_skin_entry(obj, depsgraph, reading))
 
 
-def _skin_entry(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> dict[str, Any]:
+def _skin_entry(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, reading: SceneReading) -> dict[str, Any]:
     evaluated = obj.evaluated_get(depsgraph)
     seen = read_skin(evaluated, evaluated.matrix_world)
-    report = light_listing.light_report(obj, depsgraph)
+    report = light_listing.light_report(obj, depsgraph, reading)
     return {
         "name": obj.name_full,
         "view_layer": depsgraph.view_layer.name,

@@ -85,7 +85,7 @@ def _frozen_faults(obj: bpy.types.Object, group: bpy.types.NodeTree) -> list[Fau
         nearest = min(max(frame, first), last)
         return [Fault(f"It is frozen from frame {first} to {last}: frame {frame} shows frame {nearest}", FREEZE_MORE)]
     if frozen_mark(group, obj.skinglow.row, frame) not in ("", mark):
-        return [Fault("Its lights, place or settings changed after it was frozen", FREEZE_AGAIN)]
+        return [Fault("Its lights, position or settings changed after it was frozen", FREEZE_AGAIN)]
     return []
 
 

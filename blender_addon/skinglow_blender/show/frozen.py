@@ -3,8 +3,8 @@
 renders the same.
 
 An image of the sequence has twice as many rows as there are skins: the lower half holds what the rows of the lookup
-image held, the upper half what changes with the frames in the object's property. That property keeps the place of the
-row alone, and 1 in place of the strength: an object without it still does not glow.
+image held, the upper half what changes with the frames in the object's property. That property keeps the position of
+the row alone, and 1 in place of the strength: an object without it still does not glow.
 """
 
 import os

@@ -8,7 +8,7 @@ from ..commands.freezing import FOLDER, Freezing, Frozen, frozen_state, unfreeze
 from ..errors import SkinError
 from ..session import SESSION
 from .measuring_operators import redraw_panels
-from .operators import selected_skins
+from .operators import may_act, selected_skins
 
 #: Seconds between two frames: enough for Blender to draw the progress.
 INTERVAL = 0.01
@@ -36,17 +36,13 @@ class SKINGLOW_OT_freeze(bpy.types.Operator):  # noqa: N801  Blender's naming
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         skins = selected_skins(context)
-        if SESSION.measuring is not None or SESSION.freezing is not None:
-            cls.poll_message_set("Thickness is being measured or light frozen, Esc cancels")
-        elif context.mode != "OBJECT":
-            cls.poll_message_set("Only available in Object Mode")
-        elif not skins:
-            cls.poll_message_set("Select a skin, or create one with Make Skin Glow")
-        elif all(frozen_state(obj) for obj in skins):
+        if SESSION.measuring is not None:
+            cls.poll_message_set("Thickness is being measured, Esc cancels")
+            return False
+        if skins and all(frozen_state(obj) for obj in skins):
             cls.poll_message_set("The selected skins are frozen already")
-        else:
-            return True
-        return False
+            return False
+        return may_act(cls, context, found=bool(skins))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         freezing = None

@@ -13,7 +13,7 @@ from ..skin_settings import LIGHTINGS, MODES, PRESETS
 from ..thickness import thickness_attribute
 from ..thickness.measuring import Measuring
 from . import slot_choice
-from .operators import selected_meshes, selected_skins
+from .operators import SKIN, may_act, selected_meshes, selected_skins
 
 #: Seconds between two checks of the thread.
 INTERVAL = 0.1
@@ -153,14 +153,11 @@ def stop_measuring() -> None:
         SESSION.measuring.cancel()
 
 
-def _may_measure(cls: type, context: bpy.types.Context) -> bool:
+def _may_measure(cls: type, context: bpy.types.Context, *, found: bool, what: str = SKIN) -> bool:
     if SESSION.measuring is not None:
         cls.poll_message_set("Thickness is being measured, Esc cancels")
-    elif context.mode != "OBJECT":
-        cls.poll_message_set("Only available in Object Mode")
-    else:
-        return True
-    return False
+        return False
+    return may_act(cls, context, found=found, what=what)
 
 
 class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  Blender's naming
@@ -194,12 +191,7 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not _may_measure(cls, context):
-            return False
-        if not selected_meshes(context):
-            cls.poll_message_set("Select a mesh to make glow")
-            return False
-        return True
+        return _may_measure(cls, context, found=bool(selected_meshes(context)), what="Select a mesh to make glow")
 
     def targets(self, context: bpy.types.Context) -> list[bpy.types.Object]:
         return selected_meshes(context)
@@ -245,12 +237,7 @@ class SKINGLOW_OT_measure_thickness(_MeasuringOperator, bpy.types.Operator):  # 
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not _may_measure(cls, context):
-            return False
-        if not selected_skins(context):
-            cls.poll_message_set("Select a skin, or create one with Make Skin Glow")
-            return False
-        return True
+        return _may_measure(cls, context, found=bool(selected_skins(context)))
 
     def targets(self, context: bpy.types.Context) -> list[bpy.types.Object]:
         return selected_skins(context)

@@ -13,6 +13,9 @@ from ..identity import key_of
 from ..session import SESSION
 from ..show.lut_image import skin_groups
 
+#: What a gray button on skins asks for.
+SKIN = "Select a skin, or create one with Make Skin Glow"
+
 
 def selected_meshes(context: bpy.types.Context) -> list[bpy.types.Object]:
     """The selected meshes, the active one first."""
@@ -43,35 +46,61 @@ class _SkinOperator:
         return {"FINISHED"}
 
 
+def may_act(operator: type, context: bpy.types.Context, *, found: bool, what: str = SKIN) -> bool:
+    """The poll of an operator on what is selected: says why its button is gray.
+
+    found, what  whether there is something to act on, and what to do if not
+    """
+    if SESSION.freezing is not None:
+        operator.poll_message_set("Light is being frozen, Esc cancels")
+    elif context.mode != "OBJECT":
+        operator.poll_message_set("Only available in Object Mode")
+    elif not found:
+        operator.poll_message_set(what)
+    else:
+        return True
+    return False
+
+
 class SelectedSkinsOperator(_SkinOperator):
-    """An operator on the selected skins."""
+    """Acts on the selected skins."""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if context.mode != "OBJECT":
-            cls.poll_message_set("Only available in Object Mode")
-        elif not selected_skins(context):
-            cls.poll_message_set("Select a skin, or create one with Make Skin Glow")
-        else:
-            return True
-        return False
+        return may_act(cls, context, found=bool(selected_skins(context)))
 
 
-class SKINGLOW_OT_remove(SelectedSkinsOperator, bpy.types.Operator):  # noqa: N801  Blender's naming
+class _EachSelectedSkin(SelectedSkinsOperator):
+    """Does the same to each selected skin."""
+
+    #: What was done, before their names.
+    done = ""
+
+    def act(self, obj: bpy.types.Object) -> None:
+        """Acts on one skin."""
+        raise NotImplementedError
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        def act_on_all() -> str:
+            skins = selected_skins(context)
+            for obj in skins:
+                self.act(obj)
+            return f"{self.done} {', '.join(obj.name for obj in skins)}"
+
+        return self.attempt(act_on_all)
+
+
+class SKINGLOW_OT_remove(_EachSelectedSkin, bpy.types.Operator):  # noqa: N801  Blender's naming
     """Removes skins."""
 
     bl_idname = "skinglow.remove"
     bl_label = "Remove Skin Glow"
     bl_description = "Remove Skinglow from the selected objects and restore their materials"
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        def remove() -> str:
-            names = [obj.name for obj in selected_skins(context)]
-            for obj in selected_skins(context):
-                skin.remove_skin(obj)
-            return f"Skin glow removed from {', '.join(names)}"
+    done = "Skin glow removed from"
 
-        return self.attempt(remove)
+    def act(self, obj: bpy.types.Object) -> None:
+        skin.remove_skin(obj)
 
 
 class SKINGLOW_OT_repair(SelectedSkinsOperator, bpy.types.Operator):  # noqa: N801
@@ -94,21 +123,17 @@ class SKINGLOW_OT_repair(SelectedSkinsOperator, bpy.types.Operator):  # noqa: N8
         return self.attempt(repair_all)
 
 
-class SKINGLOW_OT_reset(SelectedSkinsOperator, bpy.types.Operator):  # noqa: N801
+class SKINGLOW_OT_reset(_EachSelectedSkin, bpy.types.Operator):  # noqa: N801
     """Resets skins to the defaults."""
 
     bl_idname = "skinglow.reset"
     bl_label = "Reset Skin Glow"
     bl_description = "Reset the settings of the selected skins to their defaults; the thickness and its unit are kept"
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        def reset() -> str:
-            names = [obj.name for obj in selected_skins(context)]
-            for obj in selected_skins(context):
-                skin.reset_settings(obj)
-            return f"Reset to defaults: {', '.join(names)}"
+    done = "Reset to defaults:"
 
-        return self.attempt(reset)
+    def act(self, obj: bpy.types.Object) -> None:
+        skin.reset_settings(obj)
 
 
 class _AnySkin(_SkinOperator):

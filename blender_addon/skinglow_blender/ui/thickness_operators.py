@@ -6,6 +6,8 @@ from bpy.props import EnumProperty, FloatProperty, IntProperty
 
 from ..commands.thickness_map import EVERY_TEXEL, bake_thickness, thickness_from_image
 from ..errors import SkinError
+from .locations import is_skin
+from .operators import may_act
 
 ITEMS = (
     ("EXR", "Float EXR", "Thickness in mm"),
@@ -19,14 +21,7 @@ class _OnSkin:
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        obj = context.object
-        if context.mode != "OBJECT":
-            cls.poll_message_set("Only available in Object Mode")
-        elif obj is None or obj.type != "MESH" or not obj.skinglow.enabled:
-            cls.poll_message_set("Select a skin, or create one with Make Skin Glow")
-        else:
-            return True
-        return False
+        return may_act(cls, context, found=is_skin(context.object))
 
 
 class SKINGLOW_OT_bake_thickness(_OnSkin, bpy.types.Operator):  # noqa: N801  Blender's naming

@@ -27,7 +27,7 @@ def check_live_update_leaves_it_alone_and_health_tells(work):
     shown, row = sb.lut(obj, depsgraph()), tuple(obj[ROW_PROPERTY])
     assert told(obj) == []
     key.data.color = (0.0, 1.0, 0.0)
-    assert told(obj) == ["Its lights, place or settings changed after it was frozen"]
+    assert told(obj) == ["Its lights, position or settings changed after it was frozen"]
     assert bpy.ops.skinglow.update() == {"FINISHED"}
     obj.skinglow.strength = 5.0
     sb.update(depsgraph())

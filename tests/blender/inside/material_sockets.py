@@ -161,11 +161,11 @@ def check_light_output(work):
 def check_light_group(work):
     """The light of a skin in a light group of its own is that group's pass, and no other's."""
     obj = skin_scene()
-    lamp = add_light("Front", location=(0.0, 0.0, 3.0))
+    light = add_light("Front", location=(0.0, 0.0, 3.0))
     glow = picture(work)
     plain = patch("White", location=(1.0, 1.0, 0.1))
     plain.data.materials.append(bpy.data.materials.new("White"))
-    for name, member in (("Glow", obj), ("Room", lamp)):
+    for name, member in (("Glow", obj), ("Room", light)):
         bpy.context.view_layer.lightgroups.add(name=name)
         member.lightgroup = name
     show_pass("Combined_Glow")

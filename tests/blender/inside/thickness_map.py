@@ -26,8 +26,8 @@ def grid(work, cuts=24, name="Grid"):
 
 
 def wanted(obj):
-    places = np.array([vertex.co[:2] for vertex in obj.data.vertices])
-    return 3.0 + places @ (1.5, 0.5)
+    points = np.array([vertex.co[:2] for vertex in obj.data.vertices])
+    return 3.0 + points @ (1.5, 0.5)
 
 
 def thickness_of(obj):

@@ -1,0 +1,62 @@
+"""Runs steps in the window of Debian's Blender under Xvfb, with real clicks and keys."""
+
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import matplotlib.image
+import numpy as np
+from hosts import ADDON_FOLDER, HERE, host_named
+
+PICTURES = HERE.parents[1] / "scripts" / "panel_pictures"
+#: Seconds for a whole run; software OpenGL on a busy machine is slow.
+SECONDS = 540
+
+
+class Window:
+    """What the steps found, what Blender printed, and the folder of pictures."""
+
+    def __init__(self, folder: Path, output: str) -> None:
+        self.folder = folder
+        self.output = output
+        lines = (folder / "facts.jsonl").read_text().splitlines() if (folder / "facts.jsonl").exists() else []
+        self.facts = {fact["fact"]: fact["value"] for fact in map(json.loads, lines)}
+
+    def __getitem__(self, name: str):
+        assert name in self.facts, f"the steps never came to '{name}':\n{self.output[-4000:]}"
+        return self.facts[name]
+
+    @property
+    def pictures(self) -> dict[str, np.ndarray]:
+        """The pictures by name, (height, width, 3)."""
+        return {path.stem: matplotlib.image.imread(path)[:, :, :3] for path in self.folder.glob("*.png")}
+
+    def require_done(self) -> None:
+        """Fails with what Blender printed if the steps did not come to their end."""
+        assert "Traceback" not in self.output, self.output[-6000:]
+        assert "STEPS DONE" in self.output, self.output[-6000:]
+
+
+def run_in_window(steps: str, folder: Path, *arguments: str) -> Window:
+    """Runs `window/<steps>.py` with the file of facts, these arguments, and the folders that all steps need."""
+    host = host_named("3.4")
+    host.require()
+    assert shutil.which("xvfb-run"), "xvfb-run is not there: install xvfb and xauth (scripts/setup --tests does)"
+    command = ["xvfb-run", "-a", "-s", "-screen 0 1200x800x24", host.path, "--factory-startup"]
+    command += ["--enable-event-simulate", "--window-geometry", "0", "0", "1200", "800"]
+    command += ["-P", str(HERE / "window" / f"{steps}.py"), "--", str(folder / "facts.jsonl"), *arguments]
+    command += [str(PICTURES), str(ADDON_FOLDER), os.environ.get("SKINGLOW_SITE_311", "")]
+    log = folder / "output.txt"
+    with log.open("w") as output:
+        # What ends it after that time ends Xvfb too.
+        subprocess.run(
+            ["timeout", "--kill-after=10", str(SECONDS), *command],
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            env=host.environment(folder),
+            cwd=folder,
+            check=False,
+        )
+    return Window(folder, log.read_text())
