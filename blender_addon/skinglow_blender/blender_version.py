@@ -138,26 +138,40 @@ def socket_named(sockets: bpy.types.bpy_prop_collection, *names: str) -> bpy.typ
     return None
 
 
+#: All properties that lights have in this version: to ask a light for one that it lacks takes longer than to read it.
+LIGHT_PROPERTIES = frozenset(
+    name
+    for kind in (bpy.types.AreaLight, bpy.types.PointLight, bpy.types.SpotLight, bpy.types.SunLight)
+    for name in kind.bl_rna.properties.keys()  # noqa: SIM118  a collection iterates over its items
+)
+HAS_LIGHT_LINKING = "light_linking" in bpy.types.Object.bl_rna.properties
+
+
 def light_exposure(light: bpy.types.Light) -> float:
     """A light's exposure in stops (4.5); 0 before."""
-    return getattr(light, "exposure", 0.0)
+    return light.exposure if "exposure" in LIGHT_PROPERTIES else 0.0
 
 
 def light_temperature_color(light: bpy.types.Light) -> tuple[float, float, float] | None:
     """Linear color of a light's temperature, if it uses one (4.5)."""
-    if not getattr(light, "use_temperature", False):
+    if "use_temperature" not in LIGHT_PROPERTIES or not light.use_temperature:
         return None
     return tuple(light.temperature_color)
 
 
 def light_is_normalized(light: bpy.types.Light) -> bool:
     """Whether a light's power is independent of its size (always before 4.5)."""
-    return getattr(light, "normalize", True)
+    return "normalize" not in LIGHT_PROPERTIES or light.normalize
+
+
+def light_has_soft_falloff(light: bpy.types.PointLight) -> bool:
+    """Whether a point light or spot is softened close up (always before 4.1)."""
+    return "use_soft_falloff" not in LIGHT_PROPERTIES or light.use_soft_falloff
 
 
 def light_casts_shadows(light: bpy.types.Light) -> bool:
     """Whether a light casts shadows: EEVEE's setting, since 4.2 that of both engines, and Cycles' own before."""
-    return getattr(light, "use_shadow", True) and getattr(getattr(light, "cycles", None), "cast_shadow", True)
+    return light.use_shadow and (VERSION >= (4, 2, 0) or getattr(getattr(light, "cycles", None), "cast_shadow", True))
 
 
 def animation_curves(owner: bpy.types.ID, path: str | None = None) -> list[bpy.types.FCurve]:
@@ -182,7 +196,7 @@ def literal_path(path: str) -> str:
 
 def light_receivers(obj: bpy.types.Object) -> bpy.types.Collection | None:
     """The receiver collection of a light's light linking (4.0); None: it lights all objects."""
-    linking = getattr(obj, "light_linking", None)
+    linking = obj.light_linking if HAS_LIGHT_LINKING else None
     return linking.receiver_collection if linking is not None else None
 
 

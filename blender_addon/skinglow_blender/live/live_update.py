@@ -14,7 +14,8 @@ from ..read.scene_lights import FIELDS
 from ..read.scene_reading import ROW_PROPERTY, SceneReading, Skin, read_scene
 from ..session import SESSION
 from ..show.frozen import is_frozen
-from ..show.lut_image import Atlas, ensure_images, has_room
+from ..show.image_pairs import have_room
+from ..show.lut_image import Atlas, ensure_images, images_of
 from ..show.skin_group import build_plain
 from ..show.surface_group import build_surface
 from ..table.lut_layout import layout_of, plain_row, surface_row
@@ -87,9 +88,9 @@ def _update_group(
     only_live: bool,
     faults: dict[str, str],
 ) -> list[Rebuilt]:
-    _separate_rows(group, members)
-    _make_room(group, max(skin.base[1] for _obj, skin in members), 1 + max(o.skinglow.row for o, _skin in members))
-    atlas = _atlas(group, mode)
+    row_of = _separate_rows(group, members)
+    images = _make_room(group, max(skin.base[1] for _obj, skin in members), 1 + max(row_of.values()))
+    atlas = _atlas(group, mode, images)
     before = {key: (signature, atlas.rows.get(key)) for key, signature in atlas.signatures.items()}
     other = SESSION.atlases.get((key_of(group), "RENDER" if mode == "VIEWPORT" else "VIEWPORT"))
     kept = _keep(atlas, other, members) if only_live else set()
@@ -97,7 +98,7 @@ def _update_group(
     fixed = SESSION.rendering or group.library is not None
     _compute(atlas, members, kept, reading, faults, fixed)
     if _fit_layout(group, atlas, members):
-        old, atlas = atlas, _atlas(group, mode)
+        old, atlas = atlas, _atlas(group, mode, images_of(group))
         kept = _keep(atlas, old, members) if only_live else set()
         _compute(atlas, members, kept, reading, faults, fixed)
     rebuilt = []
@@ -105,13 +106,13 @@ def _update_group(
         table = atlas.tables.get(skin.key)
         if table is None:
             continue
-        row, signature = obj.skinglow.row, atlas.signatures[skin.key]
+        row, signature = row_of[skin.key], atlas.signatures[skin.key]
         if not atlas.holds(skin.key, row, table):
             atlas.put(skin.key, row, table, _texels(table, skin, atlas))
             changed_from = before.get(skin.key, (None, None))
             if changed_from != (signature, row):
                 rebuilt.append(Rebuilt(skin.name, mode, changed_from[0], signature))
-        _set_row_property(obj, skin, atlas)
+        _set_row_property(obj, skin, atlas, row)
     if atlas.is_dirty:
         atlas.write(group)
     if mode == "RENDER" or not SESSION.rendering:
@@ -201,47 +202,56 @@ def _has_surface_weights(group: bpy.types.NodeTree) -> bool:
     return any(s.group == group and s.enabled and s.mode == "PHYSICAL" and s.weights != "OBJECT" for s in skins)
 
 
-def _atlas(group: bpy.types.NodeTree, mode: str) -> Atlas:
+def _atlas(group: bpy.types.NodeTree, mode: str, images: list[bpy.types.Image]) -> Atlas:
     key = (key_of(group), mode)
     atlas = SESSION.atlases.get(key)
-    if atlas is None or not atlas.fits(group):
+    if atlas is None or not atlas.fits(group, images):
         atlas = SESSION.atlases[key] = Atlas(group, mode)
     return atlas
 
 
-def _separate_rows(group: bpy.types.NodeTree, members: list[tuple[bpy.types.Object, Skin]]) -> None:
-    """Assigns a row to each skin that has none or shares one because it was copied from another skin."""
-    for obj, _skin in members:
+def _separate_rows(group: bpy.types.NodeTree, members: list[tuple[bpy.types.Object, Skin]]) -> dict[str, int]:
+    """Assigns a row to each skin that has none or shares one because it was copied from another skin.
+
+    Returns all rows by skin.
+    """
+    group_key, rows = key_of(group), {}
+    for obj, skin in members:
         settings = obj.skinglow
-        me = key_of(obj)
-        if settings.row < 0 or _other_owner(group, settings.row, me):
+        row = settings.row
+        if row < 0 or _other_owner(group, (group_key, row), skin.key):
             used = {o.skinglow.row for o in bpy.data.objects if o.skinglow.group == group}
-            settings.row = next(i for i in range(len(used) + 1) if i not in used)
-        SESSION.owners[key_of(group), settings.row] = me
+            settings.row = row = next(i for i in range(len(used) + 1) if i not in used)
+        SESSION.owners[group_key, row] = skin.key
+        rows[skin.key] = row
+    return rows
 
 
-def _other_owner(group: bpy.types.NodeTree, row: int, me: str) -> bool:
+def _other_owner(group: bpy.types.NodeTree, place: tuple[str, int], me: str) -> bool:
     """Whether a row belongs to another object that still exists, in any scene, and still uses it."""
-    owner = SESSION.owners.get((key_of(group), row))
+    owner = SESSION.owners.get(place)
     if owner is None or owner == me:
         return False
     other = next((obj for obj in bpy.data.objects if key_of(obj) == owner), None)
-    return other is not None and other.skinglow.group == group and other.skinglow.row == row
+    return other is not None and other.skinglow.group == group and other.skinglow.row == place[1]
 
 
-def _make_room(group: bpy.types.NodeTree, width: int, rows: int) -> None:
-    if has_room(group, width, rows):
-        return
+def _make_room(group: bpy.types.NodeTree, width: int, rows: int) -> list[bpy.types.Image]:
+    """Enlarges the group's images if they are too small; returns them."""
+    images = images_of(group)
+    if have_room(images, width, rows):
+        return images
     if SESSION.rendering:
         raise SkinError("its images are too small and cannot be enlarged while rendering: update before rendering")
     ensure_images(group, width, rows)
+    return images_of(group)
 
 
-def _set_row_property(obj: bpy.types.Object, skin: Skin, atlas: Atlas) -> None:
+def _set_row_property(obj: bpy.types.Object, skin: Skin, atlas: Atlas, row: int) -> None:
     """Sets the property from which the object's material reads its row and the mapping from thickness to texel."""
     height, width = atlas.pixels.shape[:2]
     scale = texels_per_mm(obj, skin, atlas.tables[skin.key].texel_mapping)
-    wanted = (scale, 1.0 / width, (obj.skinglow.row + 0.5) / height, skin.strength)
+    wanted = (scale, 1.0 / width, (row + 0.5) / height, skin.strength)
     if tuple(obj.get(ROW_PROPERTY, ())) != wanted:
         obj[ROW_PROPERTY] = wanted
         # In an animation render the object itself is at the frame where that began: its keys have to be evaluated

@@ -7,7 +7,6 @@ count.
 
 import bpy
 import numpy as np
-from mathutils import Vector
 
 from ..errors import core
 
@@ -33,7 +32,21 @@ def samples_of(mesh: bpy.types.Mesh) -> list[float]:
 def scale_since_measured(mesh: bpy.types.Mesh, world_size: float) -> float:
     """Factor by which a mesh, of an object of that size, has become larger, and so thicker, since it was measured."""
     measured = mesh.get(MEASURED_SIZE, world_size)
-    return (mesh_scale(mesh) or 1.0) * world_size / measured if measured > 0.0 else 1.0
+    return _growth(mesh) * world_size / measured if measured > 0.0 else 1.0
+
+
+def _growth(mesh: bpy.types.Mesh) -> float:
+    """Factor by which the mesh itself was scaled; 1 where it was changed in another way. Asked for at each edit."""
+    stored = mesh.get(MEASURED_SAMPLES)
+    if stored is None:
+        return 1.0
+    samples, vertices = stored[:], mesh.vertices
+    first, last = tuple(samples[2:5]), tuple(samples[-3:])
+    if samples[0] == len(vertices) and first != last:
+        # What leaves two points where they are scales nothing, whatever it does to others.
+        if vertices[int(samples[1])].co[:] == first and vertices[int(samples[-4])].co[:] == last:
+            return 1.0
+    return mesh_scale(mesh) or 1.0
 
 
 def is_reshaped(mesh: bpy.types.Mesh) -> bool:
@@ -45,11 +58,13 @@ def is_reshaped(mesh: bpy.types.Mesh) -> bool:
 def mesh_scale(mesh: bpy.types.Mesh) -> float | None:
     """Factor by which the mesh itself was scaled, judged by its samples; None if it was changed in another way."""
     stored = mesh.get(MEASURED_SAMPLES)
-    if stored is None or stored[0] != len(mesh.vertices):
+    if stored is None:
         return None
-    vertices = mesh.vertices
-    then = [Vector(stored[k + 1 : k + 4]) for k in range(1, len(stored), 4)]
-    now = [vertices[int(stored[k])].co for k in range(1, len(stored), 4)]
+    samples, vertices = stored[:], mesh.vertices
+    if samples[0] != len(vertices):
+        return None
+    then = list(zip(samples[2::4], samples[3::4], samples[4::4], strict=True))
+    now = [vertices[int(i)].co[:] for i in samples[1::4]]
     # Mostly nothing was changed.
     if now == then:
         return 1.0

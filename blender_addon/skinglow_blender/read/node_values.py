@@ -15,10 +15,14 @@ def linked_socket(socket: bpy.types.NodeSocket) -> bpy.types.NodeSocket | None:
 
     Skips reroutes, and muted nodes where Blender passes an input of theirs on; a muted link is none.
     """
+    if not socket.is_linked:
+        return None
     found = None
     while True:
-        link = next((link for link in socket.links if not link.is_muted), None)
-        if link is None:
+        for link in socket.links:
+            if not link.is_muted:
+                break
+        else:
             # Behind a reroute without an input the reroute itself remains.
             return found
         found = link.from_socket

@@ -3,11 +3,12 @@
 
 from collections.abc import Mapping
 from functools import lru_cache
+from operator import mul
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import bpy
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 
 from .. import blender_version
 from ..errors import core
@@ -45,6 +46,17 @@ class SceneLight(NamedTuple):
         return self if fraction == 1.0 else self._replace(signature=(*self.signature[:-1], fraction))
 
 
+class Placement(NamedTuple):
+    """What a light's emission takes from its matrix."""
+
+    position: tuple[float, float, float]
+    direction: tuple[float, float, float]
+    x_axis: tuple[float, float, float]
+    x_length: float
+    y_length: float
+    note: str  #: what of the transform is not followed, or ""
+
+
 def read_light(
     obj: bpy.types.Object,
     matrix: Matrix,
@@ -57,36 +69,33 @@ def read_light(
     """
     light = obj.data
     kind = light.type
-    color = tuple(light.color)
+    color = light.color[:]
     power = light.energy
     note = ""
     if blender_version.shader_tree(light) is not None:
         nodes = node_factor(light, target)
-        color = tuple(a * b for a, b in zip(color, nodes.color, strict=True))
+        color = tuple(map(mul, color, nodes.color))
         power *= nodes.strength
         note = nodes.note
     tint = blender_version.light_temperature_color(light)
     if tint is not None:
-        color = tuple(a * b for a, b in zip(color, tint, strict=True))
+        color = tuple(map(mul, color, tint))
     color, gamut_note = working_space.light_color(color)
     stops = blender_version.light_exposure(light)
     if stops != 0.0:
         power *= core().exposure_factor(stops)
 
-    (_, _, ax, px), (_, _, ay, py), (_, _, az, pz), _ = matrix
-    direction = (-ax, -ay, -az)
-    if kind == "AREA":
-        direction = _area_axis(matrix)
-    note = note or _transform_note(kind, matrix)
-    shape = tuple(_shape(light, kind, matrix).items())
+    placement = _placement(kind, matrix.copy().freeze())
+    shape = _shape(light, kind, placement)
     normalized = blender_version.light_is_normalized(light)
-    signature = (name, kind, color, power, (px, py, pz), direction, shape, normalized, 1.0)
+    signature = (name, kind, color, power, placement.position, placement.direction, shape, normalized, 1.0)
     receivers, excluded = _linked_objects(obj)
-    unlit_reason = _unlit_reason(obj, kind, direction)
+    unlit_reason = _unlit_reason(obj, light, kind, placement.direction)
     casts_shadows = blender_version.light_casts_shadows(light)
+    object_name = obj.name if instancer else name
     shown_by = (instancer or obj).original
-    note = note or gamut_note
-    return SceneLight(name, obj.name, shown_by, signature, receivers, excluded, unlit_reason, note, casts_shadows)
+    note = note or placement.note or gamut_note
+    return SceneLight(name, object_name, shown_by, signature, receivers, excluded, unlit_reason, note, casts_shadows)
 
 
 def make_light(light: SceneLight) -> Any:  # noqa: ANN401  a skinglow.Light
@@ -111,22 +120,28 @@ def _light_of(signature: tuple) -> Any:  # noqa: ANN401
     return light
 
 
-def _area_axis(matrix: Matrix) -> tuple[float, float, float]:
-    """The axis of an area light: Cycles takes the normal of its two sides, whatever became of its own z axis."""
-    x, y, z = (column.to_3d() for column in matrix.col[:3])
-    normal = x.cross(y)
-    if normal.length == 0.0:
-        return tuple(-z)
-    return tuple(-normal if normal.dot(z) > 0.0 else normal)
-
-
 #: Relative difference of lengths, and cosine of angles, that may come from single precision alone.
 ROUNDED = 1e-5
 
 
-def _transform_note(kind: str, matrix: Matrix) -> str:
+@lru_cache(maxsize=4096)
+def _placement(kind: str, matrix: Matrix) -> Placement:
+    """Most lights stay where they are: what a matrix means is computed once."""
+    x, y, z, position = (column.to_3d() for column in matrix.copy().col)
+    direction = _area_axis(x, y, z) if kind == "AREA" else -z
+    return Placement(tuple(position), tuple(direction), tuple(x), x.length, y.length, _transform_note(kind, x, y, z))
+
+
+def _area_axis(x: Vector, y: Vector, z: Vector) -> Vector:
+    """The axis of an area light: Cycles takes the normal of its two sides, whatever became of its own z axis."""
+    normal = x.cross(y)
+    if normal.length == 0.0:
+        return -z
+    return -normal if normal.dot(z) > 0.0 else normal
+
+
+def _transform_note(kind: str, x: Vector, y: Vector, z: Vector) -> str:
     """What of a light's transform is not followed, or ""."""
-    x, y, z = (column.to_3d() for column in matrix.col[:3])
     if kind == "AREA" and abs(x.dot(y)) > ROUNDED * x.length * y.length:
         return "the uneven scale of its parent skews it, which a render shows differently: apply that scale"
     lengths = [x.length, y.length, z.length]
@@ -137,37 +152,39 @@ def _transform_note(kind: str, matrix: Matrix) -> str:
     return ""
 
 
-def _shape(light: bpy.types.Light, kind: str, matrix: Matrix) -> dict[str, Any]:
-    """The fields of `skinglow.Light` that are specific to this kind."""
+def _shape(light: bpy.types.Light, kind: str, placement: Placement) -> tuple[tuple[str, Any], ...]:
+    """The fields of `skinglow.Light` that are specific to this kind, by name."""
     if kind == "SUN":
-        return {"sun_angle": light.angle}
+        return (("sun_angle", light.angle),)
     if kind == "AREA":
-        x_axis, y_axis = matrix.col[0], matrix.col[1]
-        size_y = light.size_y if light.shape in ("RECTANGLE", "ELLIPSE") else light.size
-        return {
-            "area_shape": "ELLIPSE" if light.shape in ("DISK", "ELLIPSE") else "RECTANGLE",
-            "size_x": light.size * x_axis.to_3d().length,
-            "size_y": size_y * y_axis.to_3d().length,
-            "tangent": tuple(x_axis.to_3d()),
-            "spread": light.spread,
-        }
-    fields = {"radius": light.shadow_soft_size, "soft_falloff": getattr(light, "use_soft_falloff", True)}
-    if kind == "SPOT":
-        fields["spot_angle"] = light.spot_size
-        fields["spot_blend"] = light.spot_blend
-        fields["spot_cosine"] = blender_version.SPOT_HAS_COSINE
-    return fields
+        form, size = light.shape, light.size
+        size_y = light.size_y if form in ("RECTANGLE", "ELLIPSE") else size
+        return (
+            ("area_shape", "ELLIPSE" if form in ("DISK", "ELLIPSE") else "RECTANGLE"),
+            ("size_x", size * placement.x_length),
+            ("size_y", size_y * placement.y_length),
+            ("tangent", placement.x_axis),
+            ("spread", light.spread),
+        )
+    fields = (("radius", light.shadow_soft_size), ("soft_falloff", blender_version.light_has_soft_falloff(light)))
+    if kind != "SPOT":
+        return fields
+    return (
+        *fields,
+        ("spot_angle", light.spot_size),
+        ("spot_blend", light.spot_blend),
+        ("spot_cosine", blender_version.SPOT_HAS_COSINE),
+    )
 
 
-def _unlit_reason(obj: bpy.types.Object, kind: str, direction: tuple[float, float, float]) -> str:
+def _unlit_reason(
+    obj: bpy.types.Object, light: bpy.types.Light, kind: str, direction: tuple[float, float, float]
+) -> str:
     if not obj.visible_diffuse:
         return "its ray visibility excludes diffuse rays"
-    if kind == "AREA" and getattr(getattr(obj.data, "cycles", None), "is_portal", False):
+    if kind == "AREA" and getattr(getattr(light, "cycles", None), "is_portal", False):
         return "it is a portal, which emits no light"
-    if kind == "AREA" and 0.0 in (
-        obj.data.size,
-        obj.data.size_y if obj.data.shape in ("RECTANGLE", "ELLIPSE") else 1.0,
-    ):
+    if kind == "AREA" and (light.size == 0.0 or (light.size_y == 0.0 and light.shape in ("RECTANGLE", "ELLIPSE"))):
         return "it has a size of 0, of which Cycles renders nothing"
     if kind != "POINT" and direction == (0.0, 0.0, 0.0):
         return "its scale is 0, so it has no direction"

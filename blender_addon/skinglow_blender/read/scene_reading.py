@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One pass over an evaluated scene: its lights, its world and its skins."""
 
+from functools import lru_cache
 from math import pi
 from typing import NamedTuple
 
@@ -68,49 +69,69 @@ def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
         # Collections hidden in the viewport by their eye icon are still in the viewport's depsgraph.
         return layer is None or obj.original.visible_get(view_layer=layer)
 
-    def take(obj: bpy.types.Object, matrix: Matrix, instancer: bpy.types.Object | None) -> None:
-        if obj.type == "LIGHT":
+    def take(obj: bpy.types.Object, kind: str, placed: bpy.types.Object, instancer: bpy.types.Object | None) -> None:
+        if kind == "LIGHT":
             if is_visible(instancer or obj):
                 name = f"{obj.name} in {instancer.name}" if instancer else obj.name
-                lights.append(read_light(obj, matrix, name, target, instancer))
-        elif obj.type == "MESH" and obj.skinglow.enabled:
-            skin = read_skin(obj, matrix)
-            if skin.key not in seen:
-                seen.add(skin.key)
-                skins.append((obj.original, skin))
+                lights.append(read_light(obj, placed.matrix_world, name, target, instancer))
+        elif kind == "MESH":
+            settings = obj.skinglow
+            if settings.enabled:
+                skin = _read_skin(obj, settings, placed.matrix_world)
+                if skin.key not in seen:
+                    seen.add(skin.key)
+                    skins.append((obj.original, skin))
 
     # Iterating over the instances of a scattered forest is slow: do so only if something in the scene instances.
     for obj in depsgraph.objects:
-        take(obj, obj.matrix_world, None)
-        may_instance = may_instance or obj.is_instancer or any(m.type == "NODES" for m in obj.modifiers)
+        kind = obj.type
+        take(obj, kind, obj, None)
+        may_instance = may_instance or obj.is_instancer or (kind != "LIGHT" and has_nodes(obj))
     if may_instance:
         for instance in depsgraph.object_instances:
             if instance.is_instance:
-                take(instance.object, instance.matrix_world, instance.parent)
+                take(instance.object, instance.object.type, instance, instance.parent)
     return SceneReading(lights, skins, read_world(depsgraph))
+
+
+def has_nodes(obj: bpy.types.Object) -> bool:
+    """Whether an object has a modifier with geometry nodes, which may instance anything."""
+    modifiers = obj.modifiers
+    return bool(modifiers) and any(modifier.type == "NODES" for modifier in modifiers)
 
 
 def read_skin(obj: bpy.types.Object, matrix: Matrix) -> Skin:
     """Reads the settings of an evaluated skin object (with drivers and keyframes applied) at that world matrix."""
-    settings = obj.skinglow
+    return _read_skin(obj, obj.skinglow, matrix)
+
+
+def _read_skin(obj: bpy.types.Object, settings: bpy.types.PropertyGroup, matrix: Matrix) -> Skin:
+    mode = settings.mode
     # A number of an earlier version that no longer has a name reads as "" until file_upgrade.py replaced it.
-    weights = (settings.weights or "SURFACE") if settings.mode == "PHYSICAL" else "OBJECT"
-    world_size = abs(matrix.to_3x3().determinant()) ** (1.0 / 3.0)
+    weights = (settings.weights or "SURFACE") if mode == "PHYSICAL" else "OBJECT"
+    reference = settings.reference
+    rows, world_size = _rows_and_size(matrix.copy().freeze())
     return Skin(
         name=obj.name,
         key=key_of(obj),
-        mode=settings.mode,
+        mode=mode,
         weights=weights,
         live=settings.live,
         strength=as_typed(settings.strength),
-        base=_base_key(settings),
+        base=_base_key(settings, mode),
         blood_weight=_triple(settings.blood_weight),
         attenuation=_triple(settings.attenuation),
-        point=_reference_point(obj, matrix),
-        reference=_key_of(settings.reference_object) if settings.reference == "OBJECT" else "",
+        point=_reference_point(obj, settings, reference, rows),
+        reference=_key_of(settings.reference_object) if reference == "OBJECT" else "",
         world_size=world_size,
         surface=None if weights == "OBJECT" else _surface_bounds(obj, matrix, world_size),
     )
+
+
+@lru_cache(maxsize=4096)
+def _rows_and_size(matrix: Matrix) -> tuple[tuple[tuple[float, ...], ...], float]:
+    """The rows of a world matrix and the edge length of the unit cube in it: most objects stay where they are."""
+    return tuple(map(tuple, matrix.copy())), abs(matrix.to_3x3().determinant()) ** (1.0 / 3.0)
 
 
 def _surface_bounds(obj: bpy.types.Object, matrix: Matrix, world_size: float) -> SurfaceBounds:
@@ -131,13 +152,14 @@ def _surface_bounds(obj: bpy.types.Object, matrix: Matrix, world_size: float) ->
     )
 
 
-def _base_key(settings: bpy.types.PropertyGroup) -> tuple:
+def _base_key(settings: bpy.types.PropertyGroup, mode: str) -> tuple:
     """(kind, size, max thickness in mm, ...): everything the base lookup depends on."""
     size, max_thickness = settings.size, as_typed(settings.max_thickness_mm)
-    if settings.mode == "PHYSICAL" or (settings.mode == "PAPER" and settings.base == "SKIN"):
-        kind = "TISSUE" if settings.mode == "PHYSICAL" else "TISSUE_GRAY"
+    base = settings.base if mode == "PAPER" else ""
+    if mode == "PHYSICAL" or base == "SKIN":
+        kind = "TISSUE" if mode == "PHYSICAL" else "TISSUE_GRAY"
         return kind, size, max_thickness, tuple(as_typed(getattr(settings, name)) for name in TISSUE_SLIDERS)
-    if settings.mode == "PAPER" and settings.base == "IMAGE":
+    if base == "IMAGE":
         image = settings.base_image
         if image is None:
             return "IMAGE", 1, max_thickness, "", ""
@@ -146,7 +168,8 @@ def _base_key(settings: bpy.types.PropertyGroup) -> tuple:
 
 
 def _triple(vector: bpy.types.bpy_prop_array) -> tuple[float, float, float]:
-    return as_typed(vector[0]), as_typed(vector[1]), as_typed(vector[2])
+    x, y, z = vector
+    return as_typed(x), as_typed(y), as_typed(z)
 
 
 def _key_of(obj: bpy.types.Object | None) -> str:
@@ -161,18 +184,18 @@ def _point_of(obj: bpy.types.Object, bone: str) -> tuple[float, float, float]:
     return tuple(matrix.translation)
 
 
-def _reference_point(obj: bpy.types.Object, matrix: Matrix) -> tuple[float, float, float]:
-    settings = obj.skinglow
-    if settings.reference == "POINT":
+def _reference_point(
+    obj: bpy.types.Object, settings: bpy.types.PropertyGroup, reference: str, rows: tuple[tuple[float, ...], ...]
+) -> tuple[float, float, float]:
+    (a, b, c, d), (e, f, g, h), (i, j, k, m), _ = rows
+    if reference == "POINT":
         return _triple(settings.reference_point)
-    if settings.reference == "ORIGIN":
-        origin = matrix.col[3]
-        return origin[0], origin[1], origin[2]
-    if settings.reference == "OBJECT" and settings.reference_object is not None:
+    if reference == "ORIGIN":
+        return d, h, m
+    if reference == "OBJECT" and settings.reference_object is not None:
         return _point_of(settings.reference_object, settings.reference_bone)
     # In double precision: mathutils rounds to single, which would cost the distances their last digits.
     box = obj.bound_box
     (ax, ay, az), (bx, by, bz) = box[0], box[6]
     x, y, z = (ax + bx) / 2.0, (ay + by) / 2.0, (az + bz) / 2.0
-    (a, b, c, d), (e, f, g, h), (i, j, k, m), _ = matrix
     return a * x + b * y + c * z + d, e * x + f * y + g * z + h, i * x + j * y + k * z + m

@@ -42,23 +42,24 @@ class GroupImages:
         """A group's four images in the order of SLOTS; fewer if some were deleted."""
         return slots_of(self.shown(group))
 
-    def pair(self, group: bpy.types.NodeTree, mode: str) -> tuple[bpy.types.Image, bpy.types.Image]:
-        """The two images of a depsgraph mode, 'VIEWPORT' or 'RENDER'."""
-        images = self.all_of(group)
+    def pair(
+        self, group: bpy.types.NodeTree, mode: str, images: list[bpy.types.Image] | None = None
+    ) -> tuple[bpy.types.Image, bpy.types.Image]:
+        """The two images of a depsgraph mode, 'VIEWPORT' or 'RENDER'; images: all_of the group, if known."""
+        images = self.all_of(group) if images is None else images
         if len(images) != len(SLOTS):
             raise SkinError(f"An image of the node group '{group.name}' was deleted: make the skin again to restore it")
         return (images[2], images[3]) if mode == "RENDER" else (images[0], images[1])
 
     def has_room(self, group: bpy.types.NodeTree, width: int, rows: int) -> bool:
         """Whether a group's images exist and are that large."""
-        images = self.all_of(group)
-        return len(images) == len(SLOTS) and all(i.size[0] >= width and i.size[1] >= rows for i in images)
+        return have_room(self.all_of(group), width, rows)
 
     def ensure(self, group: bpy.types.NodeTree, width: int, rows: int) -> None:
         """Creates or enlarges a group's images to be that large. Not while rendering."""
-        if self.has_room(group, width, rows):
-            return
         images = self.all_of(group)
+        if have_room(images, width, rows):
+            return
         if len(images) != len(SLOTS):
             self.renew(group, width, rows)
             return
@@ -92,7 +93,14 @@ def slots_of(image: bpy.types.Image | None) -> list[bpy.types.Image]:
     """The images that one of them, or a sequence in their place, points to."""
     if image is None:
         return []
-    return [each for each in (getattr(image.skinglow, slot) for slot in SLOTS) if each is not None]
+    pointers = image.skinglow
+    return [each for each in (getattr(pointers, slot) for slot in SLOTS) if each is not None]
+
+
+def have_room(images: list[bpy.types.Image], width: int, rows: int) -> bool:
+    """Whether these are all images of a group, each that large."""
+    sizes = [image.size[:] for image in images]
+    return len(sizes) == len(SLOTS) and all(size[0] >= width and size[1] >= rows for size in sizes)
 
 
 def delete_with_slots(image: bpy.types.Image | None) -> None:
@@ -138,7 +146,7 @@ class PairContents:
     def __init__(self, images: GroupImages, group: bpy.types.NodeTree, mode: str) -> None:
         self.images, self.mode = images, mode
         pair = images.pair(group, mode)
-        self._data = self._addresses(group)
+        self._data = _addresses(group, pair)
         width, height = pair[0].size
         self.pixels = np.zeros((height, width, 4), np.float32)
         self.space = working_space.working_space()
@@ -148,14 +156,16 @@ class PairContents:
         self.was_shown = True
         self._is_compared = False
 
-    def fits(self, group: bpy.types.NodeTree) -> bool:
+    def fits(self, group: bpy.types.NodeTree, images: list[bpy.types.Image] | None = None) -> bool:
         """Whether group and images, their size, and the file's working space are still those of this object.
 
         A group made anew has the name of the deleted one.
+        images  all images of the group, if known
         """
-        if self._data != self._addresses(group):
+        pair = self.images.pair(group, self.mode, images)
+        if self._data != _addresses(group, pair):
             return False
-        width, height = self.images.pair(group, self.mode)[0].size
+        width, height = pair[0].size
         return self.pixels.shape[:2] == (height, width) and self.space == working_space.working_space()
 
     def write(self, group: bpy.types.NodeTree) -> None:
@@ -186,8 +196,9 @@ class PairContents:
         self.images.show(group, image)
         self.was_shown = True
 
-    def _addresses(self, group: bpy.types.NodeTree) -> tuple[int, ...]:
-        return tuple(data.as_pointer() for data in (group, *self.images.pair(group, self.mode)))
+
+def _addresses(group: bpy.types.NodeTree, pair: tuple[bpy.types.Image, bpy.types.Image]) -> tuple[int, ...]:
+    return tuple(data.as_pointer() for data in (group, *pair))
 
 
 def _keep_animated() -> None:

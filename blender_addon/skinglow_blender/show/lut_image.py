@@ -35,14 +35,15 @@ def image_nodes(group: bpy.types.NodeTree) -> list[bpy.types.Node]:
     Where there are tiles only, one node that nothing is connected to keeps the image.
     """
     # By the properties first: a look for a node by name goes through all of them.
-    header = [group.nodes[HEADER_NODE]] if FROZEN_PROPERTY in group and HEADER_NODE in group.nodes else []
+    group_nodes = group.nodes
+    header = [group_nodes[HEADER_NODE]] if FROZEN_PROPERTY in group and HEADER_NODE in group_nodes else []
     if LAYOUT_PROPERTY in group:
-        texel = group.nodes.get(TEXEL_NODE)
+        texel = group_nodes.get(TEXEL_NODE)
         tree = texel.node_tree if texel is not None else None
         node = tree.nodes.get(SURFACE_NODE) if tree is not None else None
         return [node, *header] if node is not None else []
     names = NODE_NAMES[:1] if group.get(TILE_NODES_PROPERTY) == TILES_ONLY else NODE_NAMES
-    nodes = [group.nodes.get(name) for name in names]
+    nodes = [group_nodes.get(name) for name in names]
     return nodes + header if None not in nodes else []
 
 
@@ -74,9 +75,9 @@ class Atlas(PairContents):
         self._written: dict[str, object] = {}
         self.tables: dict[str, Any] = {}  #: skin_tables.Table by skin
 
-    def fits(self, group: bpy.types.NodeTree) -> bool:
+    def fits(self, group: bpy.types.NodeTree, images: list[bpy.types.Image] | None = None) -> bool:
         """Whether group and images, their size and layout, and the file's working space are those of this atlas."""
-        return super().fits(group) and self.layout == group_layout(group)
+        return super().fits(group, images) and self.layout == group_layout(group)
 
     def holds(self, key: str, row: int, table: object) -> bool:
         """Whether a skin's row holds exactly this table."""

@@ -73,9 +73,13 @@ class SkinLights(NamedTuple):
     signatures: tuple[tuple, ...]
 
     @classmethod
-    def from_lights(cls, lights: list[SceneLight]) -> "SkinLights":
-        """All of these lights."""
-        return cls(lights, tuple(light.signature for light in lights))
+    def from_lights(cls, lights: list[SceneLight], before: "SkinLights | None" = None) -> "SkinLights":
+        """All of these lights; signatures that are as before are the very same tuples, which compare at once."""
+        old = before.signatures if before is not None else ()
+        new = tuple(light.signature for light in lights)
+        if len(new) == len(old):
+            new = tuple(a if a == b else b for a, b in zip(old, new, strict=True))
+        return cls(lights, old if new == old else new)
 
 
 class PreparedLights:
@@ -91,7 +95,7 @@ class PreparedLights:
         if lights is not self.reading:
             self.reading, lit = lights, [light for light in lights if not light.unlit_reason]
             per_skin = any(light.receivers is not None or light.excluded or light.visible for light in lit)
-            self.shared = None if per_skin else SkinLights.from_lights(lit)
+            self.shared = None if per_skin else SkinLights.from_lights(lit, self.shared)
         if self.shared is not None:
             return self.shared
         return SkinLights.from_lights(
@@ -151,9 +155,9 @@ def compute_table(skin: Skin, lights: list[SceneLight], world: World | None, cap
         # Light leaves the skin diffusely: radiance is radiant exitance over pi.
         weight = sg.diffuse_radiance(irradiance)
     colors = sg.recolor(base, weight)
-    if max(colors.max(), -colors.min()) > BRIGHTEST:
+    if np.abs(colors).max() > BRIGHTEST:
         raise SkinError(f"{skin.name}: the lookup exceeds the range of a float image: reduce the power of the lights")
-    return Table(colors, base.texel_mapping, tuple(float(w) for w in weight), base.matrices, bound, lighting, far)
+    return Table(colors, base.texel_mapping, tuple(weight.tolist()), base.matrices, bound, lighting, far)
 
 
 def _object_weight_error(skin: Skin, lights: list, world: World | None, irradiance: np.ndarray) -> float:
