@@ -122,6 +122,16 @@ Raises ValueError naming light, field, value and what is allowed.)");
         .def_property_readonly(
             "is_on", [](const Light& self) { return is_on(self); },
             "False for a light that gives nothing: hidden, power 0 or black.")
+        .def(
+            "moved",
+            [](const Light& self, py::handle motion) {
+                return self.moved(numpy::to_matrix4(motion, "motion"));
+            },
+            "motion"_a,
+            R"(The same light elsewhere: position, direction and tangent carried along.
+
+motion  (4, 4), on column vectors: a rotation, orthogonal to 1e-5, mirroring or not, and a translation. The inverse of a
+        body's motion gives the light as seen from the body. Raises ValueError on any other.)")
         .def("__repr__", [](const Light& self) {
             return "<skinglow.Light \"" + self.name() + "\" " + std::string(to_text(self.kind())) +
                    ", color " + to_text(self.color()) + ", power " + to_text(self.power()) +

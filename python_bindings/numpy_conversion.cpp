@@ -67,6 +67,17 @@ std::vector<glm::dvec3> to_vec3s(py::handle value, std::string_view name) {
     return {rows, rows + array.shape(0)};
 }
 
+glm::dmat4 to_matrix4(py::handle value, std::string_view name) {
+    const Array array = to_array(value, name);
+    if (array.ndim() != 2 || array.shape(0) != 4 || array.shape(1) != 4)
+        refuse_argument(name, "of shape " + shape_text(array), "shape (4, 4)");
+    glm::dmat4 matrix;
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column) matrix[column][row] = array.at(row, column);
+    }
+    return matrix;
+}
+
 PreparedRig to_rig(py::handle lights) {
     if (py::isinstance<PreparedRig>(lights)) return lights.cast<const PreparedRig&>();
     if (!py::isinstance<py::sequence>(lights) || py::isinstance<py::str>(lights))

@@ -5,6 +5,7 @@
 #include <skinglow/rig.h>
 
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
@@ -28,6 +29,9 @@ glm::dvec3 to_vec3(pybind11::handle value, std::string_view name);
 
 /// (n, 3).
 std::vector<glm::dvec3> to_vec3s(pybind11::handle value, std::string_view name);
+
+/// (4, 4), by rows, as a matrix on column vectors.
+glm::dmat4 to_matrix4(pybind11::handle value, std::string_view name);
 
 /// A PreparedRig as it is, or one made, without the GIL, from a sequence of Light; TypeError otherwise.
 PreparedRig to_rig(pybind11::handle lights);

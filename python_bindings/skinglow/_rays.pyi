@@ -82,6 +82,7 @@ class Shape:
         shadow_samples: int,
         solver_tolerance: float,
         previous: LitShape | None,
+        occluder_frame: ArrayLike | None,
         progress: Callable[[float], bool] | None,
     ) -> LitShape: ...
     def exitance_error(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <numbers>
 #include <string>
@@ -106,6 +107,12 @@ class Light {
     double power() const { return settings_.power; }
     const std::string& name() const { return settings_.name; }
     bool visible() const { return settings_.visible; }
+
+    /// The same light elsewhere: position, direction and tangent carried along. To see a light from the frame of a
+    /// body, move it by the inverse of the body's motion.
+    /// @param motion  rotation, with or without a reflection, orthogonal to 1e-5, and translation: on column vectors,
+    ///                else std::invalid_argument
+    Light moved(const glm::dmat4& motion) const;
 
   private:
     LightSettings settings_;

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -96,7 +97,7 @@ class LitShape;
 
 struct ShapeLightOptions {
     const Environment* environment = nullptr;  ///< none: black
-    const Occluders* occluders = nullptr;      ///< other objects, in the frame of the vertices; none: nothing
+    const Occluders* occluders = nullptr;      ///< other objects, in a frame of their own; none: nothing
     std::vector<std::size_t> excluded = {};    ///< meshes of the occluders that do not count: the body's own
     int reentries = 2;                         ///< how often light that leaves skin enters skin again, 0 to 8
     int shadow_samples = 16;                   ///< rays to a light that has an extent, 1 to 4096
@@ -107,6 +108,9 @@ struct ShapeLightOptions {
     /// power, are taken from there, as they are found amid the same occluders and are solved at least as well: what
     /// changed costs, and the rest nothing. Without use where it is of another shape.
     const LitShape* previous = nullptr;
+    /// From the frame of the vertices to that of the occluders, in one unit: as Light::moved. A body that is carried about
+    /// keeps its shape and they keep theirs.
+    glm::dmat4 occluder_frame{1.0};
 };
 
 /// A body under lights. Copies share what was solved; may be asked from many threads at once.

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "geometry/rigid_motion.h"
 #include "light/light_fields.h"
 #include "numerics/argument_check.h"
 
@@ -63,6 +64,15 @@ Light::Light(LightSettings settings) : settings_(std::move(settings)) {
     });
     if (kind() != LightKind::point && direction() == glm::dvec3(0.0))
         refuse_argument(named("direction"), to_text(direction()), "a vector of length above 0");
+}
+
+Light Light::moved(const glm::dmat4& motion) const {
+    const RigidMotion rigid("motion", motion);
+    LightSettings settings = settings_;
+    settings.position = rigid.point(position());
+    settings.direction = rigid.direction(direction());
+    if (auto* area = std::get_if<AreaLight>(&settings.shape)) area->tangent = rigid.direction(area->tangent);
+    return settings;
 }
 
 bool is_on(const Light& light) {

@@ -16,7 +16,10 @@ constexpr double work_of_traced = 0.005;
 
 LightScene::LightScene(std::shared_ptr<const ShapeData> of, PreparedRig lights,
                        const ShapeLightOptions& given)
-    : shape(std::move(of)), rig(std::move(lights)), options(given) {
+    : shape(std::move(of)),
+      rig(std::move(lights)),
+      options(given),
+      to_occluders("occluder_frame", given.occluder_frame) {
     if (given.environment != nullptr) environment = *given.environment;
     if (given.occluders != nullptr) occluders = *given.occluders;
     options.environment = nullptr;
@@ -26,7 +29,8 @@ LightScene::LightScene(std::shared_ptr<const ShapeData> of, PreparedRig lights,
 bool LightScene::has_same_shadows(const LightScene& other) const {
     const auto scene = [](const LightScene& of) { return of.occluders ? &of.occluders->scene() : nullptr; };
     return shape->solver == other.shape->solver && scene(*this) == scene(other) &&
-           (!occluders || options.excluded == other.options.excluded);
+           (!occluders || (options.excluded == other.options.excluded &&
+                           options.occluder_frame == other.options.occluder_frame));
 }
 
 bool LightScene::has_same_flesh(const LightScene& other) const {
@@ -63,10 +67,11 @@ const VertexLight& LightTracer::vertex_light() {
     if (!vertex_light_) {
         const ShapeData& shape = *scene_->shape;
         const ShapeLightOptions& options = scene_->options;
-        vertex_light_.emplace(shape.solver->surface(), shape.vertices, shape.solver->vertex_sites(),
-                              shape.options.unit_mm, shape.solver->wanted_vertices(options.reentries > 0),
-                              ShadowOptions{scene_->occluders ? &*scene_->occluders : nullptr,
-                                            options.excluded, options.shadow_samples, shape.options.threads});
+        vertex_light_.emplace(
+            shape.solver->surface(), shape.vertices, shape.solver->vertex_sites(), shape.options.unit_mm,
+            shape.solver->wanted_vertices(options.reentries > 0),
+            ShadowOptions{scene_->occluders ? &*scene_->occluders : nullptr, options.excluded,
+                          scene_->to_occluders, options.shadow_samples, shape.options.threads});
     }
     return *vertex_light_;
 }

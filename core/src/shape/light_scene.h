@@ -15,6 +15,7 @@ struct LightScene {
     ShapeLightOptions options;  ///< the pointers in it are not read
     std::optional<Environment> environment;
     std::optional<Occluders> occluders;
+    RigidMotion to_occluders;
 
     LightScene(std::shared_ptr<const ShapeData> of, PreparedRig lights, const ShapeLightOptions& given);
 

@@ -67,8 +67,10 @@ VertexLight::Receiver VertexLight::receiver_of(std::uint32_t vertex) const {
 bool VertexLight::sees(const Receiver& receiver, const glm::dvec3& direction, double distance) const {
     const double mm = std::min(distance * unit_mm_, static_cast<double>(std::numeric_limits<float>::max()));
     if (surface_.blocks(receiver.origin, direction, static_cast<float>(mm))) return false;
-    return options_.occluders == nullptr ||
-           !options_.occluders->scene().occluded(receiver.point, direction, distance, excluded_);
+    if (options_.occluders == nullptr) return true;
+    const RigidMotion& frame = options_.to_occluders;
+    return !options_.occluders->scene().occluded(frame.point(receiver.point), frame.direction(direction),
+                                                 distance, excluded_);
 }
 
 double VertexLight::fraction(const PreparedLight& light, const Receiver& receiver, std::uint32_t vertex,

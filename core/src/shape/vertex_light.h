@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/rigid_motion.h"
 #include "radiometry/prepared_light.h"
 #include "shape/flesh_surface.h"
 #include "shape/surface_sites.h"
@@ -18,6 +19,7 @@ namespace skinglow::detail {
 struct ShadowOptions {
     const Occluders* occluders = nullptr;    ///< none: the body alone casts shadows
     std::vector<std::size_t> excluded = {};  ///< meshes of it that do not count
+    RigidMotion to_occluders = {};           ///< from the frame of the vertices
     int samples = 16;                        ///< rays to a light that has an extent, in its penumbra
     int threads = 0;
 };
