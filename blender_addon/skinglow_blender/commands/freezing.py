@@ -12,13 +12,13 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import bpy
 import numpy as np
 
 from .. import blender_version
-from ..errors import SkinError
+from ..errors import SkinError, core
 from ..identity import key_of
 from ..live.frozen_update import mark_of
 from ..live.live_update import update_scene
@@ -27,6 +27,8 @@ from ..session import SESSION
 from ..show.frozen import (
     FILE_NAME,
     MARK_LENGTH,
+    TILES_FILE_NAME,
+    TileRange,
     file_number,
     freeze_group,
     frozen_folder,
@@ -35,13 +37,14 @@ from ..show.frozen import (
     is_frozen,
     unfreeze_group,
 )
-from ..show.group_nodes import build_nodes, nodes_of
+from ..show.group_nodes import GroupNodes, build_nodes, nodes_of
 from ..show.group_sockets import replace_group
 from ..show.lut_image import ensure_images, shown_image
 from ..show.skin_group import new_group
 from ..show.skin_material import skin_nodes
-from ..show.surface_group import build_surface
+from ..show.tile_image import DARK, TILE_PROPERTY, TILES
 from ..table.occlusion import with_visible_fractions
+from ..thickness.tile_attribute import rows_of
 from .skin import skin_settings_of
 
 #: Where the folders go, one for each skin.
@@ -50,6 +53,12 @@ FOLDER = "//skinglow_frozen"
 STALE_SECONDS = 3600.0
 #: How often the nodes of a material may grow within the frames: each time all frames are written anew.
 MAX_RESTARTS = 16
+
+
+NOT_ALWAYS_TILES = (
+    "it is lit through its shape in some of the frames only, and a frozen material does so in all or none: "
+    "set Lighting to Per Pixel, or see in the panel why its shape cannot be used"
+)
 
 
 class Frozen(NamedTuple):
@@ -66,7 +75,8 @@ class _Shown(NamedTuple):
 
     texels: np.ndarray  #: (width, 4)
     scale: tuple[float, float]  #: texels per mm, strength
-    layout: Any
+    nodes: GroupNodes
+    tiles: tuple[TileRange, np.ndarray] | None  #: with their pixels (rows, width, 4)
 
 
 class _Evaluation(bpy.types.RenderEngine):
@@ -85,31 +95,50 @@ class _Part:
     def __init__(self, skins: list[bpy.types.Object], parent: Path) -> None:
         self.skins = skins
         self.group = skins[0].skinglow.group
-        self.layout: Any = None
+        self.nodes = GroupNodes()
         self.width = 0
+        self.tiles: dict[int, TileRange] = {}  #: by row
         self.rows = 1 + max(obj.skinglow.row for obj in skins)
         self.marks: dict[int, str] = {}
         self.folder = _free_folder(parent, bpy.path.clean_name(skins[0].name))
         self.partial = parent / f".{self.folder.name}.{platform.node()}-{os.getpid()}.part"
 
     def take(self, shown: dict[str, _Shown]) -> bool:
-        """Returns whether these texels have the layout of those before; takes theirs if not."""
-        for each in (shown[key_of(obj)] for obj in self.skins if key_of(obj) in shown):
-            if (each.layout, len(each.texels)) != (self.layout, self.width):
-                is_first = not self.width
-                self.layout, self.width = each.layout, len(each.texels)
-                return is_first
-        return True
+        """Returns whether these texels are laid out as those before; takes their layout if not."""
+        is_first, before = not self.width, (self.nodes, self.width, dict(self.tiles))
+        for obj in self.skins:
+            each = shown.get(key_of(obj))
+            if each is None:
+                continue
+            self.nodes, self.width = each.nodes, len(each.texels)
+            if each.tiles is not None:
+                self.tiles[obj.skinglow.row] = each.tiles[0]
+        return is_first or before == (self.nodes, self.width, self.tiles)
 
     def write(self, number: int, shown: dict[str, _Shown]) -> None:
         """Writes the image of a frame, complete under its name or not at all."""
         rows, scales = np.zeros((self.rows, max(self.width, 1), 4), np.float32), np.zeros((self.rows, 2), np.float32)
+        width, height = self.tile_size
+        tiles = np.zeros((height, width, 4), np.float32)
         for obj in self.skins:
-            if key_of(obj) in shown:
-                row, each = obj.skinglow.row, shown[key_of(obj)]
-                rows[row], scales[row] = each.texels, each.scale
+            each, row = shown.get(key_of(obj)), obj.skinglow.row
+            if each is None:
+                continue
+            rows[row], scales[row] = each.texels, each.scale
+            if each.tiles is not None:
+                (first_row, count), pixels = each.tiles
+                tiles[first_row : first_row + count] = pixels
+            elif row in self.tiles:
+                raise SkinError(f"{obj.name}: {NOT_ALWAYS_TILES}")
         self.partial.mkdir(parents=True, exist_ok=True)
         _write_image(self.partial / FILE_NAME.format(number), frozen_pixels(rows, scales))
+        if self.tiles:
+            _write_image(self.partial / TILES_FILE_NAME.format(number), tiles)
+
+    @property
+    def tile_size(self) -> tuple[int, int]:
+        """Width and height of the images of tiles."""
+        return core().FaceTiles.WIDTH if self.tiles else 0, max(map(sum, self.tiles.values()), default=0)
 
 
 class Freezing:
@@ -186,8 +215,8 @@ class Freezing:
         for part in self.parts:
             os.rename(part.partial, part.folder)
             group = _group_of_its_own(part)
-            file = part.folder / FILE_NAME.format(file_number(self.first, self.first))
-            freeze_group(group, file, (self.first, self.last), (part.width, part.rows), part.marks)
+            tiles = (*part.tile_size, part.tiles) if part.tiles else None
+            freeze_group(group, part.folder, (self.first, self.last), (part.width, part.rows), part.marks, tiles)
             names = tuple(obj.name for obj in part.skins)
             frozen.append(Frozen(names, self.first, self.last, part.folder))
         SESSION.forget_tables()
@@ -356,7 +385,7 @@ def _shown_in_render(scene: bpy.types.Scene) -> dict[str, _Shown]:
         faults.extend(SESSION.faults.values())
         for obj, shown in _rows_shown(depsgraph):
             before = found.setdefault(key_of(obj), shown)
-            if not np.array_equal(before.texels, shown.texels) or before.scale != shown.scale:
+            if not _shows_the_same(before, shown):
                 faults.append(
                     f"{obj.name}: view layers light it differently, and a frozen material can show one of them: "
                     "turn off Use for Rendering of the others"
@@ -376,13 +405,29 @@ def _shown_in_render(scene: bpy.types.Scene) -> dict[str, _Shown]:
     return found
 
 
+def _shows_the_same(a: _Shown, b: _Shown) -> bool:
+    if not np.array_equal(a.texels, b.texels) or a.scale != b.scale or (a.tiles is None) != (b.tiles is None):
+        return False
+    return a.tiles is None or (a.tiles[0] == b.tiles[0] and np.array_equal(a.tiles[1], b.tiles[1]))
+
+
 def _rows_shown(depsgraph: bpy.types.Depsgraph) -> Iterator[tuple[bpy.types.Object, _Shown]]:
     for obj, skin in SESSION.reading[1].skins:
         group = obj.skinglow.group
         atlas = SESSION.atlases.get((key_of(group), depsgraph.mode)) if group is not None else None
         if atlas is not None and skin.key in atlas.tables:
             scale, _width, _row, strength = obj[ROW_PROPERTY]
-            yield obj, _Shown(atlas.pixels[obj.skinglow.row].copy(), (scale, strength), atlas.layout)
+            texels = atlas.pixels[obj.skinglow.row].copy()
+            yield obj, _Shown(texels, (scale, strength), nodes_of(group), _tiles_shown(obj, depsgraph.mode))
+
+
+def _tiles_shown(obj: bpy.types.Object, mode: str) -> tuple[TileRange, np.ndarray] | None:
+    atlas = SESSION.tile_atlases.get((key_of(obj.skinglow.group), mode))
+    first_row, _width, _height, use = obj.get(TILE_PROPERTY, DARK)
+    if atlas is None or not use:
+        return None
+    found = TileRange(int(first_row), rows_of(obj.data))
+    return found, atlas.pixels[found.first_row : sum(found)].copy()
 
 
 @contextmanager
@@ -408,8 +453,9 @@ def _group_of_its_own(part: _Part) -> bpy.types.NodeTree:
         return part.group
     group = new_group()
     ensure_images(group, part.width, part.rows)
-    if part.layout is not None:
-        build_surface(group, part.layout)
+    build_nodes(group, part.nodes)
+    if part.tiles:
+        TILES.ensure(group, *part.tile_size)
     for node in set().union(*map(_nodes_of, part.skins)):
         replace_group(node, group)
     for obj in part.skins:

@@ -11,7 +11,7 @@ from ..identity import key_of
 from ..read.measured_size import is_reshaped
 from ..read.mesh_reading import evaluated_mesh, vertices_of_slots
 from ..session import SESSION
-from ..show.frozen import frozen_file, frozen_frames, frozen_mark, is_frozen
+from ..show.frozen import frozen_frames, frozen_mark, is_frozen, missing_file
 from ..show.image_pairs import SLOTS
 from ..show.lut_image import images_of, shown_image
 from ..thickness import thickness_attribute
@@ -80,8 +80,9 @@ def _frozen_faults(obj: bpy.types.Object, group: bpy.types.NodeTree) -> list[Fau
         return []
     frame, mark = SESSION.marks[key_of(obj)]
     first, last = frozen_frames(group)
-    if shown_image(group) is not None and not frozen_file(group, frame).is_file():
-        return [Fault(f"Its frozen image {frozen_file(group, frame)} is missing", FREEZE_AGAIN)]
+    missing = missing_file(group, frame) if shown_image(group) is not None else None
+    if missing is not None:
+        return [Fault(f"Its frozen image {missing} is missing", FREEZE_AGAIN)]
     if not first <= frame <= last:
         nearest = min(max(frame, first), last)
         return [Fault(f"It is frozen from frame {first} to {last}: frame {frame} shows frame {nearest}", FREEZE_MORE)]

@@ -7,7 +7,8 @@ import bpy
 
 from ..read.measured_size import scale_since_measured
 from ..read.scene_reading import ROW_PROPERTY, SceneReading, Skin
-from ..show.frozen import MARK_LENGTH, frozen_row, holds_row
+from ..show.frozen import MARK_LENGTH, frozen_row, frozen_tiles, holds_row
+from ..show.tile_image import DARK, TILE_PROPERTY, set_tile_property
 from ..table.skin_tables import signature_of
 
 
@@ -36,3 +37,6 @@ def follow_frozen(
         if tuple(obj.get(ROW_PROPERTY, ())) != wanted:
             obj[ROW_PROPERTY] = wanted
             obj.update_tag(refresh={"OBJECT"})
+        tiles = frozen_tiles(group, row)
+        if tiles != DARK or TILE_PROPERTY in obj:
+            set_tile_property(obj, tiles)

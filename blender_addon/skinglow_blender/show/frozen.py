@@ -5,10 +5,13 @@ renders the same.
 An image of the sequence has twice as many rows as there are skins: the lower half holds what the rows of the lookup
 image held, the upper half what changes with the frames in the object's property. That property keeps the position of
 the row alone, and 1 in place of the strength: an object without it still does not glow.
+
+Where skins are lit through their shape, a second sequence holds their tiles.
 """
 
 import os
 from pathlib import Path
+from typing import NamedTuple
 
 import bpy
 import numpy as np
@@ -16,12 +19,13 @@ import numpy as np
 from .. import blender_version
 from ..errors import SkinError
 from ..read.scene_reading import ROW_PROPERTY
-from .image_pairs import SLOTS, read_pixels
-from .lut_image import FROZEN_PROPERTY, HEADER_NODE, image_nodes, images_of, show_image, shown_image
+from .image_pairs import SLOTS, GroupImages, delete_images, read_pixels
+from .lut_image import FROZEN_PROPERTY, HEADER_NODE, ROWS, shown_image
 from .node_building import NodeBuilder, Socket
+from .tile_image import DARK, TILES
 
 #: Files of a sequence: Blender takes the last number of a name for the frame's.
-FILE_NAME = "light_{:04d}.exr"
+FILE_NAME, TILES_FILE_NAME = "light_{:04d}.exr", "tiles_{:04d}.exr"
 #: Characters of a mark in the group's property (marks of frozen frames, commands/freezing.py).
 MARK_LENGTH = 8
 
@@ -49,9 +53,22 @@ def file_number(frame: int, first: int) -> int:
 
 
 def frozen_file(group: bpy.types.NodeTree, frame: int) -> Path:
-    """The file that a frozen group shows at a frame: outside of the sequence its nearest one."""
+    """The file with the rows that a frozen group shows at a frame: outside of the sequence its nearest one."""
+    return _files(group, frame)[0]
+
+
+def missing_file(group: bpy.types.NodeTree, frame: int) -> Path | None:
+    """A file that a frozen group shows at a frame and that is not there."""
+    wanted = _files(group, frame)
+    if TILES.shown(group) is None:
+        del wanted[1:]
+    return next((file for file in wanted if not file.is_file()), None)
+
+
+def _files(group: bpy.types.NodeTree, frame: int) -> list[Path]:
     first, last = frozen_frames(group)
-    return frozen_folder(group) / FILE_NAME.format(file_number(min(max(frame, first), last), first))
+    number = file_number(min(max(frame, first), last), first)
+    return [frozen_folder(group) / name.format(number) for name in (FILE_NAME, TILES_FILE_NAME)]
 
 
 def frozen_mark(group: bpy.types.NodeTree, row: int, frame: int) -> str:
@@ -75,6 +92,15 @@ def frozen_row(group: bpy.types.NodeTree, row: int) -> tuple[float, float, float
     return 1.0, 1.0 / stored["width"], (row + 0.5) / (2 * stored["rows"]), 1.0
 
 
+def frozen_tiles(group: bpy.types.NodeTree, row: int) -> tuple[float, float, float, float]:
+    """The object's property of tiles in a frozen group."""
+    stored = group[FROZEN_PROPERTY].get("tiles")
+    first_row = stored["first_rows"].get(str(row)) if stored is not None else None
+    if first_row is None:
+        return DARK
+    return float(first_row), 1.0 / stored["width"], 1.0 / stored["height"], 1.0
+
+
 def frozen_pixels(rows: np.ndarray, scales: np.ndarray) -> np.ndarray:
     """The image (2 n, width, 4) of a frame from the rows (n, width, 4) and the (texels per mm, strength) (n, 2)."""
     header = np.zeros_like(rows)
@@ -82,28 +108,52 @@ def frozen_pixels(rows: np.ndarray, scales: np.ndarray) -> np.ndarray:
     return np.concatenate([rows, header])
 
 
+class TileRange(NamedTuple):
+    """The rows of a skin's tiles in the image."""
+
+    first_row: int
+    rows: int
+
+
 def freeze_group(
-    group: bpy.types.NodeTree, file: Path, frames: tuple[int, int], size: tuple[int, int], marks: dict[int, str]
+    group: bpy.types.NodeTree,
+    folder: Path,
+    frames: tuple[int, int],
+    size: tuple[int, int],
+    marks: dict[int, str],
+    tiles: tuple[int, int, dict[int, TileRange]] | None = None,
 ) -> None:
     """Makes a group show a sequence.
 
-    file    the first of its images
+    folder  where its images are
     frames  first and last
     size    width, and number of rows of skins
     marks   by row: the marks of all frames, MARK_LENGTH characters each
+    tiles   width and height of the images of tiles, and the range of each skin in them, by row; None: there are none
     """
-    live = images_of(group)
-    image = bpy.data.images.new(f".Skinglow {file.parent.name}", size[0], 2 * size[1], alpha=True, float_buffer=True)
+    marked = {str(row): text for row, text in marks.items()}
+    stored = {"first": frames[0], "last": frames[1], "width": size[0], "rows": size[1], "marks": marked}
+    number = file_number(frames[0], frames[0])
+    _show_sequence(group, ROWS, folder / FILE_NAME.format(number), (size[0], 2 * size[1]))
+    if tiles is not None:
+        first_rows = {str(row): each.first_row for row, each in tiles[2].items()}
+        stored["tiles"] = {"width": tiles[0], "height": tiles[1], "first_rows": first_rows}
+        _show_sequence(group, TILES, folder / TILES_FILE_NAME.format(number), tiles[:2])
+    group[FROZEN_PROPERTY] = stored
+    add_frozen_nodes(group)
+
+
+def _show_sequence(group: bpy.types.NodeTree, kind: GroupImages, file: Path, size: tuple[int, int]) -> None:
+    """Puts a sequence in place of a group's live images, which it keeps."""
+    live = kind.all_of(group)
+    image = bpy.data.images.new(f".Skinglow {file.parent.name}", *size, alpha=True, float_buffer=True)
     image.colorspace_settings.name = blender_version.data_color_space(image)
     image.alpha_mode, image.use_half_precision = "CHANNEL_PACKED", False
     image.source = "SEQUENCE"
     image.filepath = path_in_file(file)
     for slot, each in zip(SLOTS, live, strict=True):
         setattr(image.skinglow, slot, each)
-    marked = {str(row): text for row, text in marks.items()}
-    group[FROZEN_PROPERTY] = {"first": frames[0], "last": frames[1], "width": size[0], "rows": size[1], "marks": marked}
-    show_image(group, image)
-    add_frozen_nodes(group)
+    kind.show(group, image)
 
 
 def path_in_file(file: Path) -> str:
@@ -116,33 +166,33 @@ def path_in_file(file: Path) -> str:
 
 def unfreeze_group(group: bpy.types.NodeTree) -> None:
     """Gives a group its live images back; its nodes have to be built again, and its skins updated."""
-    image, live = shown_image(group), images_of(group)
     group.pop(FROZEN_PROPERTY)
-    if live:
-        show_image(group, live[0])
-    if image is not None and image not in live:
-        for slot in SLOTS:
-            image.skinglow.property_unset(slot)
-        bpy.data.images.remove(image)
+    for kind in (ROWS, TILES):
+        image, live = kind.shown(group), kind.all_of(group)
+        if live:
+            kind.show(group, live[0])
+        if image is not None and image not in live:
+            delete_images([image])
 
 
 def add_frozen_nodes(group: bpy.types.NodeTree) -> None:
     """Makes the nodes of a frozen group, built as live ones are, take scale and strength from the sequence."""
     first, last = frozen_frames(group)
     row = next(n for n in group.nodes if n.bl_idname == "ShaderNodeAttribute" and n.attribute_name == ROW_PROPERTY)
-    split = row.outputs["Vector"].links[0].to_node
     build = NodeBuilder(group, row.location.x, row.location.y + 400.0)
-    scaled, lit = _targets(split.outputs[0]), _targets(row.outputs["Alpha"])
-    above = build.math("ADD", split.outputs[2], 0.5, label="Row in the upper half")
+    links = row.outputs["Vector"].links
+    # There is none where only tiles are shown.
+    split = links[0].to_node.outputs if links else build.split(row.outputs["Vector"])
+    scaled, lit = _targets(split[0]), _targets(row.outputs["Alpha"])
+    above = build.math("ADD", split[2], 0.5, label="Row in the upper half")
     header = build.texel(build.combine(0.5, above), HEADER_NODE)
     texels_per_mm = build.split(header.outputs["Color"])[0]
     strength = build.math("MULTIPLY", row.outputs["Alpha"], header.outputs["Alpha"], label="Frozen strength")
     for source, sockets in ((texels_per_mm, scaled), (strength, lit)):
         for socket in sockets:
             group.links.new(source, socket)
-    image = shown_image(group)
-    for node in image_nodes(group):
-        node.image = image
+    header.image = shown_image(group)
+    for node in [*ROWS.nodes(group), *TILES.nodes(group)]:
         user = node.image_user
         user.frame_start, user.frame_duration, user.frame_offset = (
             first,

@@ -77,11 +77,13 @@ def place_tiles(group: bpy.types.NodeTree, heights: Mapping[bpy.types.Object, in
     if any(placed.get(key, (0, -1))[1] != height for key, height in wanted.items()):
         others = [o for o in bpy.data.objects if o.skinglow.group == group and o not in heights and TILE_PROPERTY in o]
         taken = [_stored_range(obj, placed) for obj in others if obj.skinglow.enabled]
+        there = max((image.size[1] for image in TILES.all_of(group)), default=0)
         # By row: it stays, so that a copy moves and not the one that was copied.
         for obj in sorted(heights, key=lambda obj: (key_of(obj) not in placed, obj.skinglow.row)):
             height = heights[obj]
             first = _stored_range(obj, placed)[0]
-            if first < 0 or not _is_free(first, height, taken):
+            # Of a skin that comes from another group the rows may be beyond the images of this one.
+            if first < 0 or first + height > there or not _is_free(first, height, taken):
                 ends = [0, *(end for _start, end in taken)]
                 first = min(end for end in ends if _is_free(end, height, taken))
             taken.append((first, first + height))
