@@ -137,7 +137,7 @@ class _Part:
     @property
     def tile_size(self) -> tuple[int, int]:
         """Width and height of the images of tiles."""
-        return core().FaceTiles.WIDTH if self.tiles else 0, max(map(sum, self.tiles.values()), default=0)
+        return core().FaceTiles.WIDTH if self.tiles else 0, max(1, *map(sum, self.tiles.values()))
 
 
 class Freezing:
