@@ -52,13 +52,21 @@ void set_normals(PovrayMesh& mesh, py::handle value) {
     (by_corner ? mesh.corner_normals : mesh.vertex_normals).assign(rows, rows + array.size() / 3);
 }
 
-void set_surface_uv(PovrayMesh& mesh, py::handle value) {
-    if (value.is_none()) return;
-    const numpy::Array array = numpy::to_array(value, "surface_uv");
-    require_shape(array, "surface_uv", array.ndim() == 3 && array.shape(1) == 3 && array.shape(2) == 2,
+std::vector<glm::dvec2> to_corner_uv(py::handle value, std::string_view name) {
+    if (value.is_none()) return {};
+    const numpy::Array array = numpy::to_array(value, name);
+    require_shape(array, name, array.ndim() == 3 && array.shape(1) == 3 && array.shape(2) == 2,
                   "shape (m, 3, 2), three per triangle");
     const auto* rows = reinterpret_cast<const glm::dvec2*>(array.data());
-    mesh.surface_uv.assign(rows, rows + array.size() / 2);
+    return {rows, rows + array.size() / 2};
+}
+
+PovrayGlow glow_of(const std::string& image, py::handle lut_u, py::handle glow_uv) {
+    if (lut_u.is_none() == glow_uv.is_none()) {
+        refuse_argument("lut_u and glow_uv", lut_u.is_none() ? "neither" : "both", "one of them");
+    }
+    if (!glow_uv.is_none()) return PovrayGlow::texels;
+    return image.empty() ? PovrayGlow::macros : PovrayGlow::image;
 }
 
 PovrayCamera to_camera(py::handle matrix, py::handle resolution, py::handle projection, py::handle angle_x,
@@ -105,18 +113,20 @@ std::map<std::string, std::string> povray_files_of_arrays(
     py::handle shift, std::string_view mode, py::handle base, py::handle size, py::handle max_thickness_mm,
     std::string image, std::vector<Light> lights, py::handle point, py::handle coefficients,
     py::handle blood_weight, double strength, py::handle normals, py::handle surface_color,
-    std::string surface_image, py::handle surface_uv, py::handle background, std::string name) {
+    std::string surface_image, py::handle surface_uv, py::handle background, std::string name,
+    py::handle glow_uv) {
     PovrayScene scene;
     scene.mesh.name = std::move(name);
     scene.mesh.geometry = numpy::to_mesh(vertices, triangles);
-    scene.mesh.lut_u = to_doubles(lut_u, "lut_u");
+    if (!lut_u.is_none()) scene.mesh.lut_u = to_doubles(lut_u, "lut_u");
+    scene.mesh.glow_uv = to_corner_uv(glow_uv, "glow_uv");
     set_normals(scene.mesh, normals);
-    set_surface_uv(scene.mesh, surface_uv);
+    scene.mesh.surface_uv = to_corner_uv(surface_uv, "surface_uv");
     scene.camera = to_camera(camera_matrix, resolution, projection, angle_x, ortho_width, shift);
     scene.lights = std::move(lights);
     scene.lut.mode = lut_mode(mode);
     scene.lut.axis = to_axis(base, size, max_thickness_mm);
-    scene.lut.glow = image.empty() ? PovrayGlow::macros : PovrayGlow::image;
+    scene.lut.glow = glow_of(image, lut_u, glow_uv);
     scene.lut.image = std::move(image);
     if (!base.is_none() && scene.lut.mode == LutMode::paper) {
         scene.lut.base = gray_entries(base.cast<const BaseLut&>());
@@ -139,21 +149,24 @@ std::map<std::string, std::string> povray_files_of_arrays(
 
 void bind_povray(py::module_& m) {
     m.def(
-        "povray_files", &povray_files_of_arrays, "vertices"_a, "triangles"_a, "lut_u"_a, py::kw_only(),
-        "camera_matrix"_a, "resolution"_a, "projection"_a = py::none(), "angle_x"_a = py::none(),
-        "ortho_width"_a = py::none(), "shift"_a = py::make_tuple(0.0, 0.0), "mode"_a = "paper",
-        "base"_a = py::none(), "size"_a = py::none(), "max_thickness_mm"_a = py::none(), "image"_a = "",
-        "lights"_a = std::vector<Light>(), "point"_a = py::make_tuple(0.0, 0.0, 0.0),
+        "povray_files", &povray_files_of_arrays, "vertices"_a, "triangles"_a, "lut_u"_a = py::none(),
+        py::kw_only(), "camera_matrix"_a, "resolution"_a, "projection"_a = py::none(),
+        "angle_x"_a = py::none(), "ortho_width"_a = py::none(), "shift"_a = py::make_tuple(0.0, 0.0),
+        "mode"_a = "paper", "base"_a = py::none(), "size"_a = py::none(), "max_thickness_mm"_a = py::none(),
+        "image"_a = "", "lights"_a = std::vector<Light>(), "point"_a = py::make_tuple(0.0, 0.0, 0.0),
         "coefficients"_a = py::make_tuple(1.0, 0.0, 1.0), "blood_weight"_a = py::make_tuple(1.8, 0.5, 0.4),
         "strength"_a = 1.0, "normals"_a = py::none(), "surface_color"_a = py::none(), "surface_image"_a = "",
         "surface_uv"_a = py::none(), "background"_a = py::make_tuple(0.0, 0.0, 0.0), "name"_a = "skin",
+        "glow_uv"_a = py::none(),
         R"(The files of a POV-Ray 3.7 scene, {name: text}; only those that it uses. Write them all into one folder.
 
 `povray scene.ini`, run in that folder, gives scene.exr (linear, half floats). World coordinates as Blender has them.
 
 vertices, triangles  (n, 3) world space; (m, 3) indices. Unused vertices are left out
 lut_u                (n,) image coordinate of each vertex in the lookup: with S entries over T mm of thickness d,
-                     u = (d / T * (S - 1) + 0.5) / S; clamped to the first and last texel
+                     u = (d / T * (S - 1) + 0.5) / S; clamped to the first and last texel. Not with glow_uv
+glow_uv              (m, 3, 2) in place of lut_u: coordinates of each triangle's corners in `image`, an EXR of any size
+                     with the light at points of the skin; v up, (column + 0.5) / width at the center of a texel
 camera_matrix        (4, 4) camera to world (it looks along -z); scale is ignored
 resolution           (width, height), pixels
 projection | angle_x | ortho_width   one of: (4, 4) as camera.calc_matrix_camera(depsgraph, x=width, y=height) gives

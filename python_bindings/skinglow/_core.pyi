@@ -428,7 +428,7 @@ def read_light_rig(path: str | PathLike[str], camera_rotation: ArrayLike | None 
 def povray_files(
     vertices: ArrayLike,
     triangles: ArrayLike,
-    lut_u: ArrayLike,
+    lut_u: ArrayLike | None = None,
     *,
     camera_matrix: ArrayLike,
     resolution: ArrayLike,
@@ -452,6 +452,7 @@ def povray_files(
     surface_uv: ArrayLike | None = None,
     background: ArrayLike = (0.0, 0.0, 0.0),
     name: str = "skin",
+    glow_uv: ArrayLike | None = None,
 ) -> dict[str, str]: ...
 
 # Values on a surface as texels of an image (bind_face_tiles.cpp)

@@ -42,9 +42,8 @@ from ..show.group_sockets import replace_group
 from ..show.lut_image import ensure_images, shown_image
 from ..show.skin_group import new_group
 from ..show.skin_material import skin_nodes
-from ..show.tile_image import DARK, TILE_PROPERTY, TILES
+from ..show.tile_image import TILES, tiles_shown
 from ..table.occlusion import with_visible_fractions
-from ..thickness.tile_attribute import rows_of
 from .skin import skin_settings_of
 
 #: Where the folders go, one for each skin.
@@ -138,7 +137,7 @@ class _Part:
     @property
     def tile_size(self) -> tuple[int, int]:
         """Width and height of the images of tiles."""
-        return core().FaceTiles.WIDTH if self.tiles else 0, max(map(sum, self.tiles.values()), default=0)
+        return core().FaceTiles.WIDTH if self.tiles else 0, max((1, *map(sum, self.tiles.values())))
 
 
 class Freezing:
@@ -418,16 +417,12 @@ def _rows_shown(depsgraph: bpy.types.Depsgraph) -> Iterator[tuple[bpy.types.Obje
         if atlas is not None and skin.key in atlas.tables:
             scale, _width, _row, strength = obj[ROW_PROPERTY]
             texels = atlas.pixels[obj.skinglow.row].copy()
-            yield obj, _Shown(texels, (scale, strength), nodes_of(group), _tiles_shown(obj, depsgraph.mode))
+            yield obj, _Shown(texels, (scale, strength), nodes_of(group), _tiles_of(obj, depsgraph.mode))
 
 
-def _tiles_shown(obj: bpy.types.Object, mode: str) -> tuple[TileRange, np.ndarray] | None:
-    atlas = SESSION.tile_atlases.get((key_of(obj.skinglow.group), mode))
-    first_row, _width, _height, use = obj.get(TILE_PROPERTY, DARK)
-    if atlas is None or not use:
-        return None
-    found = TileRange(int(first_row), rows_of(obj.data))
-    return found, atlas.pixels[found.first_row : sum(found)].copy()
+def _tiles_of(obj: bpy.types.Object, mode: str) -> tuple[TileRange, np.ndarray] | None:
+    found = tiles_shown(obj, mode)
+    return (TileRange(found[0], len(found[1])), found[1]) if found is not None else None
 
 
 @contextmanager

@@ -16,12 +16,16 @@ from ..read import working_space
 from ..read.mesh_reading import vertices_of_slots
 from ..read.scene_lights import make_light
 from ..read.scene_reading import SceneReading, Skin, read_scene
+from ..show.frozen import is_frozen, read_frozen_tiles
 from ..show.skin_material import skin_node
+from ..show.tile_group import MAX_ROUNDING
+from ..show.tile_image import tiles_shown
 from ..table.skin_tables import base_lut, compute_table, lights_of
 from ..table.texel_mapping import texels_per_mm
 from ..thickness.thickness_attribute import read
+from ..thickness.tile_attribute import rows_of, texels_of
 
-LUT_FILE = "lut.exr"
+LUT_FILE, TILES_FILE = "lut.exr", "tiles.exr"
 
 
 def export_povray(
@@ -82,7 +86,8 @@ def _export_skin(
         raise SkinError(f"POV-Ray computes lookups in mode paper only; '{skin.name}' is in mode {skin.mode.lower()}")
     obj = original.evaluated_get(depsgraph)
     base = base_lut(skin.base)
-    arguments: dict[str, Any] = _mesh_arguments(obj, skin, base)
+    tiles = None if compute_lut else _tiles(original, depsgraph)
+    arguments: dict[str, Any] = _mesh_arguments(obj, skin, base, tiles)
     arguments.update(_camera_arguments(depsgraph))
     written = []
     if surface:
@@ -93,9 +98,15 @@ def _export_skin(
         arguments.pop("surface_uv", None)
     if "surface_image" not in arguments:
         arguments.pop("surface_uv", None)
-    if not compute_lut:
-        written.append(_write_lut(compute_table(skin, reading.lights, reading.world).colors, folder / LUT_FILE))
+    if tiles is not None:
+        arguments["image"] = TILES_FILE
+        # With a dark row for all that shows no light.
+        light = np.pad(working_space.to_rec709(tiles[:, :, :3]), ((0, 1), (0, 0), (0, 0)))
+        written.append(_write_light(light, folder / TILES_FILE))
+    elif not compute_lut:
         arguments["image"] = LUT_FILE
+        colors = compute_table(skin, reading.lights, reading.world).colors
+        written.append(_write_light(colors[None], folder / LUT_FILE))
     files = core().povray_files(
         mode=skin.mode.lower(),
         base=base if skin.mode == "PAPER" else None,
@@ -112,18 +123,25 @@ def _export_skin(
     return written + [_write_whole(folder / name, text) for name, text in files.items()]
 
 
-def _mesh_arguments(obj: bpy.types.Object, skin: Skin, base: Any) -> dict[str, Any]:  # noqa: ANN401
-    """The evaluated mesh in world space, with its lookup coordinate at each vertex."""
+def _tiles(original: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np.ndarray | None:
+    """The pixels (h, width, 4) of the tiles that a skin shows; None if it shows a lookup."""
+    settings = original.skinglow
+    if is_frozen(settings.group):
+        frame = depsgraph.scene.frame_current
+        return read_frozen_tiles(settings.group, settings.row, frame, rows_of(original.data))
+    found = tiles_shown(original, depsgraph.mode)
+    return found[1] if found is not None else None
+
+
+def _mesh_arguments(
+    obj: bpy.types.Object,
+    skin: Skin,
+    base: Any,  # noqa: ANN401
+    tiles: np.ndarray | None,
+) -> dict[str, Any]:
+    """The evaluated mesh in world space, with the coordinates of its light."""
     mesh = obj.to_mesh()
     try:
-        thickness, known = read(mesh)
-        glows = _glowing_vertices(obj, mesh)
-        unknown = np.count_nonzero(~known & glows)
-        if unknown:
-            raise SkinError(
-                f"'{skin.name}': the thickness is not known at {unknown} of {len(known)} vertices, "
-                "which a modifier or an edit added: apply the modifier, or press Measure Thickness"
-            )
         points = np.empty(3 * len(mesh.vertices), np.float32)
         mesh.vertices.foreach_get("co", points)
         mesh.calc_loop_triangles()
@@ -134,15 +152,14 @@ def _mesh_arguments(obj: bpy.types.Object, skin: Skin, base: Any) -> dict[str, A
         smooth = np.empty(len(mesh.loop_triangles), bool)
         mesh.loop_triangles.foreach_get("use_smooth", smooth)
         matrix = np.array(obj.matrix_world, np.float64)
-        # What is not skin gets the light of the thickest.
-        texels = np.where(
-            glows, texels_per_mm(obj, skin, base.texel_mapping) * thickness.astype(np.float64), base.size - 1
-        )
         found = {
             "vertices": points.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3],
             "triangles": triangles.reshape(-1, 3),
-            "lut_u": (texels + 0.5) / base.size,
         }
+        if tiles is not None:
+            found["glow_uv"] = _texel_uv(obj, mesh, corners.reshape(-1, 3), tiles.shape)
+        else:
+            found["lut_u"] = _lut_u(obj, mesh, skin, base)
         if smooth.any():
             normals = blender_version.corner_normals(mesh)[corners] @ np.linalg.inv(matrix[:3, :3])
             found["normals"] = (normals / np.linalg.norm(normals, axis=1, keepdims=True)).reshape(-1, 3, 3)
@@ -155,11 +172,50 @@ def _mesh_arguments(obj: bpy.types.Object, skin: Skin, base: Any) -> dict[str, A
         obj.to_mesh_clear()
 
 
-def _glowing_vertices(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> np.ndarray:
-    """(n,) bool: the vertices of faces whose material adds light."""
+def _lut_u(obj: bpy.types.Object, mesh: bpy.types.Mesh, skin: Skin, base: Any) -> np.ndarray:  # noqa: ANN401
+    """The lookup coordinate of each vertex."""
+    thickness, known = read(mesh)
+    glows = _glowing_vertices(obj, mesh)
+    unknown = np.count_nonzero(~known & glows)
+    if unknown:
+        raise SkinError(
+            f"'{skin.name}': the thickness is not known at {unknown} of {len(known)} vertices, "
+            "which a modifier or an edit added: apply the modifier, or press Measure Thickness"
+        )
+    # What is not skin gets the light of the thickest.
+    texels = np.where(glows, texels_per_mm(obj, skin, base.texel_mapping) * thickness.astype(np.float64), base.size - 1)
+    return (texels + 0.5) / base.size
+
+
+def _texel_uv(obj: bpy.types.Object, mesh: bpy.types.Mesh, corners: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
+    """The coordinates (m, 3, 2) of each triangle's corners in the image of the tiles and the dark row above them."""
+    height, width = shape[0] + 1, shape[1]
+    texels = texels_of(mesh)
+    if texels is None:
+        raise SkinError(f"'{obj.name}' has no tiles behind its modifiers: apply them, or set Lighting to Per Object")
+    texels = texels[corners].astype(np.float64)
+    slot = np.empty(len(corners), np.int32)
+    mesh.loop_triangles.foreach_get("material_index", slot)
+    shows = _glowing_slots(obj)
+    tile = texels[:, :, 2]
+    dark = (tile.min(axis=1) < 1.0) | (np.ptp(tile, axis=1) > MAX_ROUNDING)
+    if shows:
+        dark |= ~np.array(shows)[np.minimum(slot, len(shows) - 1)]
+    uv = (texels[:, :, :2] + 0.5) / (width, height)
+    uv[dark] = 0.5 / width, 1.0 - 0.5 / height
+    return uv
+
+
+def _glowing_slots(obj: bpy.types.Object) -> list[bool]:
+    """Whether the material of each slot adds light."""
     materials = [slot.material for slot in obj.material_slots]
     nodes = [skin_node(material) if material is not None else None for material in materials]
-    slots = [node is not None and not node.mute for node in nodes]
+    return [node is not None and not node.mute for node in nodes]
+
+
+def _glowing_vertices(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> np.ndarray:
+    """(n,) bool: the vertices of faces whose material adds light."""
+    slots = _glowing_slots(obj)
     return vertices_of_slots(mesh, slots) if slots else np.ones(len(mesh.vertices), bool)
 
 
@@ -209,14 +265,15 @@ def _copy_picture(image: bpy.types.Image, folder: Path) -> Path | None:
     return target
 
 
-def _write_lut(colors: np.ndarray, path: Path) -> Path:
-    """Writes the table as a float32 EXR one texel high, by Blender's own writer; exact."""
-    image = bpy.data.images.new(".Skinglow export", len(colors), 1, alpha=False, float_buffer=True)
+def _write_light(colors: np.ndarray, path: Path) -> Path:
+    """Writes colors (height, width, 3) as a float32 EXR by Blender's own writer; exact."""
+    height, width = colors.shape[:2]
+    image = bpy.data.images.new(".Skinglow export", width, height, alpha=False, float_buffer=True)
     partial = path.with_name(f".{path.name}.part.exr")
     try:
         image.colorspace_settings.name = blender_version.data_color_space(image)
-        pixels = np.ones((len(colors), 4), np.float32)
-        pixels[:, :3] = colors
+        pixels = np.ones((height, width, 4), np.float32)
+        pixels[:, :, :3] = colors
         image.pixels.foreach_set(pixels.ravel())
         image.file_format = "OPEN_EXR"
         image.filepath_raw = str(partial)

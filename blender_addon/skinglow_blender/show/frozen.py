@@ -208,13 +208,24 @@ def _targets(output: Socket) -> list[Socket]:
 
 def read_frozen(group: bpy.types.NodeTree, row: int, frame: int) -> np.ndarray:
     """A skin's texels (width, 4) at a frame, from the file. Raises SkinError if it is missing. Not while rendering."""
-    file = frozen_file(group, frame)
+    return _read_file(frozen_file(group, frame))[row].copy()
+
+
+def read_frozen_tiles(group: bpy.types.NodeTree, row: int, frame: int, rows: int) -> np.ndarray | None:
+    """The pixels (rows, width, 4) of a skin's tiles at a frame, as `read_frozen`; None if it shows none."""
+    first_row, _width, _height, use = frozen_tiles(group, row)
+    if not use:
+        return None
+    return _read_file(_files(group, frame)[1])[int(first_row) : int(first_row) + rows].copy()
+
+
+def _read_file(file: Path) -> np.ndarray:
     if not file.is_file():
         raise SkinError(f"The frozen image {file} is missing: freeze again, or unfreeze")
     image = bpy.data.images.load(str(file), check_existing=False)
     try:
         image.colorspace_settings.name = blender_version.data_color_space(image)
         image.alpha_mode = "CHANNEL_PACKED"
-        return read_pixels(image)[row].copy()
+        return read_pixels(image)
     finally:
         bpy.data.images.remove(image)

@@ -116,6 +116,16 @@ def _make_room(group: bpy.types.NodeTree, rows: int) -> None:
     TILES.ensure(group, width, power_of_two(rows))
 
 
+def tiles_shown(obj: bpy.types.Object, mode: str) -> tuple[int, np.ndarray] | None:
+    """The first row and the pixels (h, width, 4) of the tiles that an object shows; None if it shows none."""
+    group = obj.skinglow.group
+    atlas = SESSION.tile_atlases.get((key_of(group), mode)) if group is not None else None
+    first, _width, _height, use = obj.get(TILE_PROPERTY, DARK)
+    if atlas is None or not use:
+        return None
+    return int(first), atlas.pixels[int(first) : int(first) + rows_of(obj.data)].copy()
+
+
 def show_tiles(obj: bpy.types.Object, atlas: TileAtlas | None, first_row: int = 0, use: bool = True) -> None:
     """Sets the property by which the object's material finds its tiles; without an atlas they are not shown."""
     height, width = atlas.pixels.shape[:2] if atlas is not None else (0, 0)

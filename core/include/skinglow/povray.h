@@ -38,6 +38,9 @@ struct PovrayMesh {
     /// Image coordinate of each vertex in the lookup: axis.texel_scale() * thickness + axis.texel_offset().
     /// It is clamped to the centers of the first and the last texel on writing. Finite; as many as vertices.
     std::vector<double> lut_u;
+    /// Of PovrayGlow::texels, in place of lut_u: coordinates in the image, three per triangle, v up. Between
+    /// the centers of texels POV-Ray interpolates linearly in u and in v. Finite.
+    std::vector<glm::dvec2> glow_uv;
     /// Smooth shading: one normal per vertex, or three per triangle, not both; none: flat. Finite; a normal
     /// of length 0, as hosts give at triangles without area, becomes +z. Written only where the scene has a
     /// surface: glow alone does not need them.
@@ -83,15 +86,17 @@ std::vector<double> gray_entries(const BaseLut& base);
 
 /// Where the glow takes its colors from.
 enum class PovrayGlow {
-    image,  ///< the float EXR `image`, one row; POV-Ray 3.7 reads it as half floats (11 bits)
-    macros  ///< computed by skinglow.inc from the base and the lights, in doubles; modes existing and paper
+    image,   ///< the float EXR `image`, one row; POV-Ray 3.7 reads it as half floats (11 bits)
+    macros,  ///< computed by skinglow.inc from the base and the lights, in doubles; modes existing and paper
+    texels  ///< the float EXR `image` of any size, at the coordinates PovrayMesh::glow_uv: light that is known
+            ///< at points of the skin, as Shape gives it and FaceTiles places it
 };
 
 struct PovrayLut {
     LutMode mode = LutMode::paper;
     LutAxis axis{default_lut_size, default_max_thickness_mm};
     PovrayGlow glow = PovrayGlow::macros;
-    std::string image;         ///< of PovrayGlow::image: EXR in the scene's folder, name without a folder
+    std::string image;  ///< of PovrayGlow::image and texels: EXR in the scene's folder, name without a folder
     std::vector<double> base;  ///< mode paper by macros: the gray base lookup, axis.size() entries, 0 or more
     glm::dvec3 blood_weight = paper_blood_weight;  ///< B of Eq. 1
     AttenuationCoefficients coefficients;          ///< of Eq. 2

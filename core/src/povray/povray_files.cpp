@@ -82,7 +82,7 @@ std::string scene_text(const PovrayScene& scene, bool lit) {
 
 std::map<std::string, std::string> povray_files(const PovrayScene& scene) {
     if (has_picture(scene.surface)) povray_image_keyword("surface image", scene.surface->image);
-    validate(scene.mesh, scene.surface);
+    validate(scene.mesh, scene.surface, scene.lut.glow);
     validate(scene.camera);
     validate(scene.lut);
     require_not_negative("background", scene.background);

@@ -80,7 +80,7 @@ std::string_view povray_image_keyword(std::string_view field, std::string_view f
 
 void validate(const PovrayLut& lut) {
     require_not_negative("strength", lut.strength);
-    if (lut.glow == PovrayGlow::image) {
+    if (lut.glow != PovrayGlow::macros) {
         if (povray_image_keyword("LUT image", lut.image) != "exr") {
             refuse_argument("LUT image", "\"" + sdl_comment(lut.image) + "\"", "a name that ends in .exr");
         }
@@ -101,11 +101,17 @@ void validate(const PovrayLut& lut) {
 
 std::string povray_lut_text(const PovrayLut& lut, const std::vector<Light>& lights_on) {
     SdlText text;
-    text.add("// Lookup of the light that comes through, mode `", to_text(lut.mode), "`: ", lut.axis.size(),
-             " entries, 0 to ", lut.axis.max_thickness_mm(),
-             " mm, at the centers of u's texels. Linear Rec.709.\n#include \"skinglow.inc\"\n");
+    const bool by_thickness = lut.glow != PovrayGlow::texels;
+    if (by_thickness) {
+        text.add("// Lookup of the light that comes through, mode `", to_text(lut.mode),
+                 "`: ", lut.axis.size(), " entries, 0 to ", lut.axis.max_thickness_mm(),
+                 " mm, at the centers of u's texels. Linear Rec.709.\n");
+    } else {
+        text.add("// The light that comes through at points of the skin. Linear Rec.709.\n");
+    }
+    text.add("#include \"skinglow.inc\"\n");
     text.add("#declare Skinglow_Strength = ", lut.strength, ";  // radiance shown = strength * lookup\n");
-    if (lut.glow == PovrayGlow::image) {
+    if (lut.glow != PovrayGlow::macros) {
         text.add("#declare Skinglow_Lookup = Skinglow_Image_Pigment(", sdl_string("LUT image", lut.image),
                  ")\n");
         return text.take();

@@ -52,16 +52,22 @@ void require_finite_list(std::string_view name, std::span<const Vector> values) 
 
 }  // namespace
 
-void validate(const PovrayMesh& mesh, const std::optional<PovraySurface>& surface) {
+void validate(const PovrayMesh& mesh, const std::optional<PovraySurface>& surface, PovrayGlow glow) {
     const std::size_t corners = 3 * mesh.geometry.triangles().size();
     if (corners == 0) refuse_argument("mesh", "0 triangles", "1 or more");
-    require_count("lut_u", mesh.lut_u.size(), mesh.geometry.vertices().size(), "one per vertex");
-    for (std::size_t i = 0; i < mesh.lut_u.size(); ++i) require_finite(entry_name("lut_u", i), mesh.lut_u[i]);
+    const std::size_t vertices = mesh.geometry.vertices().size();
+    if (glow == PovrayGlow::texels) {
+        require_count("glow_uv", mesh.glow_uv.size(), corners, "three per triangle");
+        require_finite_list<glm::dvec2>("glow_uv", mesh.glow_uv);
+    } else {
+        require_count("lut_u", mesh.lut_u.size(), vertices, "one per vertex");
+        for (std::size_t i = 0; i < vertices; ++i) require_finite(entry_name("lut_u", i), mesh.lut_u[i]);
+    }
     if (!mesh.vertex_normals.empty() && !mesh.corner_normals.empty()) {
         refuse_argument("normals", "given per vertex and per corner", "one of the two");
     }
     if (!mesh.vertex_normals.empty())
-        require_count("vertex_normals", mesh.vertex_normals.size(), mesh.lut_u.size(), "one per vertex");
+        require_count("vertex_normals", mesh.vertex_normals.size(), vertices, "one per vertex");
     if (!mesh.corner_normals.empty())
         require_count("corner_normals", mesh.corner_normals.size(), corners, "three per triangle");
     require_finite_list<glm::dvec3>("vertex_normals", mesh.vertex_normals);
@@ -104,10 +110,16 @@ std::string povray_mesh_text(const PovrayScene& scene) {
         add_vectors(text, "uv_vectors", corner_uv.first, [&](std::uint32_t i) { return mesh.surface_uv[i]; });
         text.add("#else\n");
     }
-    const double first = scene.lut.axis.texel_offset();
-    add_vectors(text, "uv_vectors", used.first, [&](std::uint32_t i) {
-        return glm::dvec2(std::clamp(mesh.lut_u[i], first, 1.0 - first), 0.5);
-    });
+    const bool by_texel = scene.lut.glow == PovrayGlow::texels;
+    const Weld glow_uv = by_texel ? weld<glm::dvec2>(mesh.glow_uv) : Weld{};
+    if (by_texel) {
+        add_vectors(text, "uv_vectors", glow_uv.first, [&](std::uint32_t i) { return mesh.glow_uv[i]; });
+    } else {
+        const double first = scene.lut.axis.texel_offset();
+        add_vectors(text, "uv_vectors", used.first, [&](std::uint32_t i) {
+            return glm::dvec2(std::clamp(mesh.lut_u[i], first, 1.0 - first), 0.5);
+        });
+    }
     if (in_parts) text.add("#end\n");
 
     add_indices(text, "face_indices", mesh.geometry.triangles().size(), [&](std::size_t i) {
@@ -117,8 +129,10 @@ std::string povray_mesh_text(const PovrayScene& scene) {
     if (in_parts) {
         text.add("#if (Skinglow_Part = 1)\n");
         add_corner_indices(text, "uv_indices", corner_uv);
-        text.add("#end\n");
+        text.add("#else\n");
     }
+    if (by_texel) add_corner_indices(text, "uv_indices", glow_uv);
+    if (in_parts) text.add("#end\n");
     text.add("  uv_mapping\n}\n");
     return text.take();
 }

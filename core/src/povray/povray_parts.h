@@ -8,7 +8,7 @@
 namespace skinglow::detail {
 
 /// Each checks its part of the scene first; std::invalid_argument names the field.
-void validate(const PovrayMesh& mesh, const std::optional<PovraySurface>& surface);
+void validate(const PovrayMesh& mesh, const std::optional<PovraySurface>& surface, PovrayGlow glow);
 void validate(const PovrayCamera& camera);
 void validate(const PovrayLut& lut);
 

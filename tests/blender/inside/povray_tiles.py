@@ -1,0 +1,66 @@
+"""The exported scene of a skin that shows tiles: POV-Ray interpolates them as Blender's nodes do."""
+
+import bpy
+import numpy as np
+import skinglow_blender as sb
+
+from inside.povray_files import away_from_edges, povray
+from inside.scenes import add_light, black_material, camera_above, depsgraph, patch, read_exr, render_settings
+from inside.tile_scenes import ball, fill, make_skins, render, without_updates
+
+SIZE = 96
+
+
+def check_same_light_in_tiles(work):
+    """Subdivided, mirrored, and with a slot that is no skin: root of the mean square at most 1/255."""
+    add_light()
+    obj = ball("Ball", material=black_material())
+    obj.scale, obj.rotation_euler = (-1.0, 1.1, 0.9), (0.2, 0.5, 0.4)
+    subdivision = obj.modifiers.new("Subdivision", "SUBSURF")
+    subdivision.levels = subdivision.render_levels = 1
+    obj.data.materials.append(black_material("Eye"))
+    slots = np.zeros(len(obj.data.polygons), np.int32)
+    slots[40:70] = 1
+    obj.data.polygons.foreach_set("material_index", slots)
+    group = make_skins([obj])
+    obj.data.materials[1].skinglow.is_skin = False
+    obj.skinglow.strength = 0.75
+    sb.update(depsgraph())
+    camera_above(26.0, (0.0, 0.0, 100.0))
+    scene = render_settings(SIZE, SIZE)
+    scene.cycles.samples, scene.cycles.filter_width = 64, 1.0
+    with without_updates():
+        for mode in ("VIEWPORT", "RENDER"):
+            fill(group, [obj], mode)
+        expected = render(work / "blender.exr")
+        files = sb.export_povray(depsgraph(), work / "povray", surface=False)
+    assert "tiles.exr" in {path.name for path in files} and "lut.exr" not in {path.name for path in files}
+    povray(work / "povray")
+    shown = read_exr(work / "povray" / "scene.exr")
+    where = away_from_edges(expected) & away_from_edges(shown)
+    assert where.sum() > 1000 and expected[where].max() > 0.5
+    # The slot that is no skin.
+    center = np.s_[SIZE // 4 : -SIZE // 4, SIZE // 4 : -SIZE // 4]
+    assert ((expected[center].max(axis=2) == 0.0) == (shown[center].max(axis=2) < 1e-6)).mean() > 0.95
+    assert (expected[center].max(axis=2) == 0.0).sum() > 10
+    rms = float(np.sqrt(np.mean((shown[where] - expected[where]) ** 2)))
+    assert rms <= 1 / 255, rms
+    return rms
+
+
+def check_tiles_are_exact(work):
+    """The image that POV-Ray reads holds the tiles as they are, and a dark row above them."""
+    obj = patch(material=black_material())
+    group = make_skins([obj])
+    camera_above()
+    with without_updates():
+        atlas = fill(group, [obj], "VIEWPORT")
+        sb.export_povray(depsgraph(), work / "exact", surface=False)
+    image = bpy.data.images.load(str(work / "exact" / "tiles.exr"))
+    image.colorspace_settings.name = "Non-Color"
+    width, height = image.size
+    pixels = np.empty(width * height * image.channels, np.float32)
+    image.pixels.foreach_get(pixels)
+    pixels = pixels.reshape(height, width, -1)[:, :, :3]
+    np.testing.assert_array_equal(pixels[:-1], atlas.pixels[: height - 1, :, :3])
+    assert pixels[0].max() > 0.1 and pixels[-1].max() == 0.0
