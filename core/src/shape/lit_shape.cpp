@@ -14,6 +14,19 @@ namespace {
 constexpr int max_reentries = 8;
 constexpr int max_samples = 4096;
 
+ShapeData::Colors recolored(const LitShapeData& lit, std::span<const glm::dvec3> colors,
+                            const ShapeProgress& progress) {
+    const std::size_t lights = lit.solved->rig.size();
+    if (colors.size() != lights) {
+        refuse_argument("colors", std::to_string(colors.size()) + " of them",
+                        "one for each of " + std::to_string(lights) + " lights");
+    }
+    for (std::size_t k = 0; k < colors.size(); ++k) require_not_negative(entry_name("colors", k), colors[k]);
+    // What is at hand is faster than starting a job.
+    if (lit.matrices.ready() == nullptr) run_or_cancel(progress, [&] { lit.by_light(); });
+    return lit.sum(colors);
+}
+
 }  // namespace
 
 LitShape Shape::light(const PreparedRig& rig, const ShapeLightOptions& options,
@@ -68,14 +81,14 @@ std::vector<glm::dvec3> LitShape::per_light(const ShapeProgress& progress) const
 
 std::vector<glm::dvec3> LitShape::recolor(std::span<const glm::dvec3> colors,
                                           const ShapeProgress& progress) const {
-    if (colors.size() != lights()) {
-        refuse_argument("colors", std::to_string(colors.size()) + " of them",
-                        "one for each of " + std::to_string(lights()) + " lights");
-    }
-    for (std::size_t k = 0; k < colors.size(); ++k) require_not_negative(entry_name("colors", k), colors[k]);
-    // What is at hand is faster than starting a job.
-    if (data_->matrices.ready() == nullptr) run_or_cancel(progress, [&] { data_->by_light(); });
-    return data_->shape->at_points(data_->sum(colors).exitance);
+    return data_->shape->at_points(recolored(*data_, colors, progress).exitance);
+}
+
+std::vector<glm::dvec3> LitShape::recolor_transmitted(std::span<const glm::dvec3> colors,
+                                                      const ShapeProgress& progress) const {
+    ShapeData::Colors found = recolored(*data_, colors, progress);
+    keep_transmitted(found);
+    return data_->shape->at_points(found.reflected);
 }
 
 LitShape LitShape::with_tissue(const Tissue& tissue) const {

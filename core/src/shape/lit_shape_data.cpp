@@ -121,6 +121,11 @@ const NodeLights& SolvedLight::each() const {
     });
 }
 
+void keep_transmitted(ShapeData::Colors& found) {
+    for (std::size_t s = 0; s < found.exitance.size(); ++s)
+        found.reflected[s] = glm::max(found.exitance[s] - found.reflected[s], glm::dvec3(0.0));
+}
+
 LitShapeData::LitShapeData(std::shared_ptr<const SolvedLight> light, std::shared_ptr<const ShapeData> colors)
     : solved(std::move(light)), shape(std::move(colors)) {
     ShapeData::Colors found;
@@ -131,8 +136,7 @@ LitShapeData::LitShapeData(std::shared_ptr<const SolvedLight> light, std::shared
     } else {
         found = shape->colors(solved->together);
     }
-    for (std::size_t s = 0; s < found.exitance.size(); ++s)
-        found.reflected[s] = glm::max(found.exitance[s] - found.reflected[s], glm::dvec3(0.0));
+    keep_transmitted(found);
     exitance = shape->at_points(found.exitance);
     transmitted = shape->at_points(found.reflected);
 }

@@ -57,4 +57,7 @@ struct LitShapeData {
     std::vector<glm::dvec3> error() const;
 };
 
+/// Puts what came through, the exitance less what is reflected, at least 0, into the place of what is reflected.
+void keep_transmitted(ShapeData::Colors& found);
+
 }  // namespace skinglow::detail
