@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from .read.scene_reading import SceneReading
     from .read.shown_mesh import ShownMeshes
     from .show.lut_image import Atlas
+    from .show.tile_image import TileAtlas
     from .table.occlusion import Occluders
     from .table.skin_tables import PreparedLights
     from .thickness.measuring import Measuring
@@ -26,6 +27,9 @@ class Session:
     def __init__(self) -> None:
         #: (node group, depsgraph mode) to the contents of its images.
         self.atlases: dict[tuple[str, str], Atlas] = {}
+        self.tile_atlases: dict[tuple[str, str], TileAtlas] = {}
+        #: Node group to the first row and the number of rows of each skin's tiles.
+        self.tile_rows: dict[str, dict[str, tuple[int, int]]] = {}
         #: Skin to what is wrong with it, as text; '*' is what concerns no single skin.
         self.faults: dict[str, str] = {}
         #: (node group, row) to the object that owns the row.
@@ -65,6 +69,8 @@ class Session:
     def forget_tables(self) -> None:
         """Drops all tables, so that the next update recomputes and shows every one."""
         self.atlases.clear()
+        self.tile_atlases.clear()
+        self.tile_rows.clear()
         self.owners.clear()
         self.faults.clear()
         self.marks.clear()

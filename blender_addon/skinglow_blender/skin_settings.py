@@ -379,7 +379,7 @@ class SkinSettings(bpy.types.PropertyGroup):
 
 
 class LutImages(bpy.types.PropertyGroup):
-    """The images of a skin node group, stored on each of them (lut_image.py explains why there are four).
+    """The images of a skin node group, stored on each of them (image_pairs.py explains why there are four).
 
     Not stored on the node group: Blender miscounts the users of data that a node tree's properties point to.
     """

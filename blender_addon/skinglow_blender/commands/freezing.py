@@ -35,9 +35,10 @@ from ..show.frozen import (
     is_frozen,
     unfreeze_group,
 )
+from ..show.group_nodes import build_nodes, nodes_of
 from ..show.group_sockets import replace_group
-from ..show.lut_image import ensure_images, group_layout, shown_image
-from ..show.skin_group import build_plain, new_group
+from ..show.lut_image import ensure_images, shown_image
+from ..show.skin_group import new_group
 from ..show.skin_material import skin_nodes
 from ..show.surface_group import build_surface
 from ..table.occlusion import with_visible_fractions
@@ -254,12 +255,9 @@ def unfreeze(objects: Iterable[bpy.types.Object] | None = None) -> list[str]:
             continue
         if group.library is not None:
             raise SkinError(f"The material was frozen in {group.library.filepath}: unfreeze it there")
-        layout = group_layout(group)
+        nodes = nodes_of(group)
         unfreeze_group(group)
-        if layout is None:
-            build_plain(group)
-        else:
-            build_surface(group, layout)
+        build_nodes(group, nodes)
         names += [obj.name for obj in skins if obj.skinglow.group == group]
     SESSION.forget_tables()
     update_scene(bpy.context.evaluated_depsgraph_get())

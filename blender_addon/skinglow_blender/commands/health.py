@@ -12,7 +12,8 @@ from ..read.measured_size import is_reshaped
 from ..read.mesh_reading import evaluated_mesh, vertices_of_slots
 from ..session import SESSION
 from ..show.frozen import frozen_file, frozen_frames, frozen_mark, is_frozen
-from ..show.lut_image import SLOTS, images_of, shown_image
+from ..show.image_pairs import SLOTS
+from ..show.lut_image import images_of, shown_image
 from ..thickness import thickness_attribute
 from ..thickness.thickness_attribute import KNOWN_ATTRIBUTE, THICKNESS_ATTRIBUTE
 from .freezing import unfreeze

@@ -20,10 +20,12 @@ from ..show.mask import fill_mask, remove_masks, store_masks
 from ..show.material_settings import clear_material, reset_material
 from ..show.skin_group import clear
 from ..show.skin_material import add_to_materials, choose_slots, chosen_materials
+from ..show.tile_image import TILE_PROPERTY, TILES
 from ..skin_settings import MEASURING_NAMES, SETTING_NAMES, applied
 from ..table.lut_layout import shown_colors
 from ..table.skin_tables import Table
 from ..thickness import thickness_attribute
+from ..thickness.tile_attribute import remove_tiles
 
 
 class SkinState(NamedTuple):
@@ -183,9 +185,11 @@ def remove_skin(obj: bpy.types.Object) -> None:
         settings.property_unset(name)
     settings.property_unset("row")
     obj.pop(ROW_PROPERTY, None)
+    obj.pop(TILE_PROPERTY, None)
     skins = [o for o in bpy.data.objects if o.skinglow.enabled]
     if not any(o.data == obj.data for o in skins):
         thickness_attribute.remove(obj.data)
+        remove_tiles(obj.data)
         remove_masks(obj.data)
     used = {slot.material for o in skins for slot in o.material_slots}
     for slot in obj.material_slots:
@@ -193,6 +197,7 @@ def remove_skin(obj: bpy.types.Object) -> None:
             clear_material(slot.material)
             reset_material(slot.material)
     if group is not None and group.library is None and not any(o.skinglow.group == group for o in skins):
+        TILES.remove(group)
         remove_images(group)
         if group.users == 0:
             clear(group)

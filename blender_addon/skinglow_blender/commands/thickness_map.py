@@ -13,7 +13,7 @@ from ..errors import SkinError, core
 from ..read.measured_geometry import check_mesh, unit_mm
 from ..read.measured_size import scale_since_measured
 from ..read.mesh_reading import triangles_of
-from ..show.lut_image import read_pixels
+from ..show.image_pairs import read_pixels
 from ..thickness import thickness_attribute
 from .skin import skin_settings_of
 

@@ -4,9 +4,8 @@
 import bpy
 
 from ..show.frozen import add_frozen_nodes, is_frozen
-from ..show.lut_image import GROUP_PROPERTY, GROUP_VERSION, group_layout, skin_groups
-from ..show.skin_group import build_plain
-from ..show.surface_group import build_surface
+from ..show.group_nodes import build_nodes, nodes_of
+from ..show.lut_image import GROUP_PROPERTY, GROUP_VERSION, skin_groups
 from ..thickness.thickness_attribute import mark_known
 
 #: The first version that stored where the thickness is known.
@@ -28,11 +27,7 @@ def upgrade() -> None:
         if obj.library is None and obj.skinglow.enabled and obj.skinglow.group in old:
             _keep_settings(obj.skinglow)
     for group in old:
-        layout = group_layout(group)
-        if layout is None:
-            build_plain(group)
-        else:
-            build_surface(group, layout)
+        build_nodes(group, nodes_of(group))
         if is_frozen(group):
             add_frozen_nodes(group)
         group[GROUP_PROPERTY] = GROUP_VERSION

@@ -11,8 +11,9 @@ from ..preferences import follows_lights
 from ..read import world_image
 from ..session import SESSION
 from ..show.group_following import follow_materials, remove_orphans, separate_copies
-from ..show.lut_image import images_of, skin_groups
+from ..show.lut_image import ROWS, skin_groups
 from ..show.mask import mask_groups, store_masks
+from ..show.tile_image import TILES
 from ..table import occlusion
 from .file_upgrade import upgrade
 from .guard import guarded, has_skins
@@ -113,7 +114,7 @@ def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
 @guarded
 def on_save(_first: Any, _second: Any) -> None:  # noqa: ANN401
     """Called before saving: generated pixels are not saved unless packed."""
-    for image in {i for group in skin_groups() for i in images_of(group)}:
+    for image in {i for group in skin_groups() for kind in (ROWS, TILES) for i in kind.all_of(group)}:
         if image.library is None and image.is_dirty:
             image.pack()
 
@@ -121,9 +122,10 @@ def on_save(_first: Any, _second: Any) -> None:  # noqa: ANN401
 def show_viewport() -> None:
     """Restores the viewport's images in the nodes."""
     for group in skin_groups():
-        atlas = SESSION.atlases.get((key_of(group), "VIEWPORT"))
-        if atlas is not None:
-            atlas.show(group)
+        for atlases in (SESSION.atlases, SESSION.tile_atlases):
+            atlas = atlases.get((key_of(group), "VIEWPORT"))
+            if atlas is not None:
+                atlas.show(group)
 
 
 HANDLERS = (

@@ -16,9 +16,9 @@ import numpy as np
 from .. import blender_version
 from ..errors import SkinError
 from ..read.scene_reading import ROW_PROPERTY
-from .lut_image import FROZEN_PROPERTY, HEADER_NODE, SLOTS, image_nodes, images_of, read_pixels, show_image, shown_image
+from .image_pairs import SLOTS, read_pixels
+from .lut_image import FROZEN_PROPERTY, HEADER_NODE, image_nodes, images_of, show_image, shown_image
 from .node_building import NodeBuilder, Socket
-from .skin_group import new_lookup
 
 #: Files of a sequence: Blender takes the last number of a name for the frame's.
 FILE_NAME = "light_{:04d}.exr"
@@ -134,7 +134,7 @@ def add_frozen_nodes(group: bpy.types.NodeTree) -> None:
     build = NodeBuilder(group, row.location.x, row.location.y + 400.0)
     scaled, lit = _targets(split.outputs[0]), _targets(row.outputs["Alpha"])
     above = build.math("ADD", split.outputs[2], 0.5, label="Row in the upper half")
-    header = new_lookup(build, build.combine(0.5, above), HEADER_NODE)
+    header = build.texel(build.combine(0.5, above), HEADER_NODE)
     texels_per_mm = build.split(header.outputs["Color"])[0]
     strength = build.math("MULTIPLY", row.outputs["Alpha"], header.outputs["Alpha"], label="Frozen strength")
     for source, sockets in ((texels_per_mm, scaled), (strength, lit)):

@@ -7,19 +7,12 @@ A skin has its row in the images of one node group. If it, or a mesh that it sha
 
 import bpy
 
+from .group_nodes import build_nodes, nodes_of
 from .group_sockets import replace_group
-from .lut_image import (
-    FROZEN_PROPERTY,
-    SLOTS,
-    delete_images,
-    group_layout,
-    images_of,
-    renew_images,
-    shown_image,
-    skin_groups,
-)
+from .image_pairs import SLOTS, delete_images
+from .lut_image import FROZEN_PROPERTY, ROWS, images_of, skin_groups
 from .skin_material import skin_node
-from .surface_group import build_surface
+from .tile_image import TILES
 
 
 def may_change_groups(update: bpy.types.DepsgraphUpdate) -> bool:
@@ -56,10 +49,11 @@ def separate_copies() -> bool:
             owners.update(images)
             continue
         if group.library is None:
-            layout = group_layout(group)
-            if layout is not None:
-                build_surface(group, layout)
-            renew_images(group, *images[0].size)
+            tiles = TILES.all_of(group)
+            build_nodes(group, nodes_of(group))
+            for kind, others in ((ROWS, images), (TILES, tiles)):
+                if others:
+                    kind.renew(group, *others[0].size)
             separated = True
     return separated
 
@@ -92,6 +86,7 @@ def _precedence(node: bpy.types.Node) -> tuple[bool, bool, str]:
 
 def remove_orphans() -> None:
     """Deletes lookup images that no group uses: Blender never does, because they point to each other."""
-    shown = {image for group in skin_groups() for image in [shown_image(group), *images_of(group)]}
+    kinds = [(kind, group) for kind in (ROWS, TILES) for group in skin_groups()]
+    shown = {image for kind, group in kinds for image in [kind.shown(group), *kind.all_of(group)]}
     ours = [i for i in bpy.data.images if i.library is None and getattr(i.skinglow, SLOTS[0]) is not None]
     delete_images([image for image in ours if image not in shown])

@@ -3,6 +3,8 @@
 
 import bpy
 
+from .. import blender_version
+
 Socket = bpy.types.NodeSocket
 #: What a socket accepts: another socket, or a value.
 Value = Socket | float | tuple[float, float, float]
@@ -68,3 +70,32 @@ class NodeBuilder:
         for socket, value in zip(node.inputs, (x, y, z), strict=True):
             self.set(socket, value)
         return node.outputs[0]
+
+    def instance(self, inner: bpy.types.NodeTree, label: str) -> bpy.types.Node:
+        """A new node of an inner group."""
+        node = self.node("ShaderNodeGroup", label)
+        node.node_tree = inner
+        return node
+
+    def attribute(self, kind: str, name: str, label: str) -> bpy.types.Node:
+        """A new attribute node; kind is 'GEOMETRY' or 'OBJECT'."""
+        node = self.node("ShaderNodeAttribute", label)
+        node.attribute_type, node.attribute_name = kind, name
+        return node
+
+    def texel(self, coordinate: Socket, name: str) -> bpy.types.Node:
+        """A new image node that reads one texel, unfiltered."""
+        lookup = self.node("ShaderNodeTexImage", "Transmitted light")
+        lookup.name, lookup.extension, lookup.interpolation = name, "EXTEND", "Closest"
+        self.set(lookup.inputs["Vector"], coordinate)
+        return lookup
+
+
+def inner_group(name: str, inputs: dict[str, str], outputs: dict[str, str]) -> tuple[NodeBuilder, bpy.types.Node]:
+    """A new group with these sockets, name to kind: its builder, and the node of its inputs."""
+    tree = bpy.data.node_groups.new(name, "ShaderNodeTree")
+    for in_out, sockets in (("INPUT", inputs), ("OUTPUT", outputs)):
+        for socket, kind in sockets.items():
+            blender_version.new_group_socket(tree, socket, kind, in_out, "")
+    build = NodeBuilder(tree, 0.0, 0.0)
+    return build, build.node("NodeGroupInput")

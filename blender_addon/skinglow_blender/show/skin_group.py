@@ -9,7 +9,13 @@ strength; an object without the property has strength 0 and does not glow.
 
 The two texels next to a thickness are read unfiltered and interpolated by nodes: EEVEE filters images with mip maps, in
 which the rows of different skins bleed into each other, and with 8-bit weights.
+
+A group whose skins are lit through their shape reads tiles instead (tile_group.py), or both, by what the object shows.
 """
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import NamedTuple
 
 import bpy
 
@@ -17,12 +23,24 @@ from ..read.scene_reading import ROW_PROPERTY
 from ..table.lut_layout import LAYOUT_PROPERTY
 from ..thickness.thickness_attribute import KNOWN_ATTRIBUTE, MIN_KNOWN, THICKNESS_ATTRIBUTE
 from .group_sockets import ensure_sockets
-from .lut_image import GROUP_PROPERTY, GROUP_VERSION, NODE_NAMES, ensure_images, show_image, shown_image
+from .image_pairs import delete_with_slots
+from .lut_image import (
+    GROUP_PROPERTY,
+    GROUP_VERSION,
+    NODE_NAMES,
+    ROWS,
+    TILE_NODES_PROPERTY,
+    TILES_AND_ROWS,
+    TILES_ONLY,
+    ensure_images,
+)
 from .node_building import NodeBuilder, Socket
+from .tile_group import INNER_GROUP, add_tiles
+from .tile_image import TILES
 
 GROUP_NAME = "Skinglow"
-#: The inner groups of a group that lights per pixel (surface_group.py). Files hold them by these names.
-INNER_GROUPS = (".Skinglow texel", ".Skinglow lamp", ".Skinglow lamp with profile")
+#: The inner groups of a group that lights per pixel (surface_group.py), and of tiles. Files hold them by these names.
+INNER_GROUPS = (".Skinglow texel", ".Skinglow lamp", ".Skinglow lamp with profile", INNER_GROUP)
 
 
 def new_group() -> bpy.types.NodeTree:
@@ -40,13 +58,22 @@ class RowSockets:
     def __init__(self, build: NodeBuilder) -> None:
         self.given = build.node("NodeGroupInput").outputs
         self.thickness, known = measured_thickness(build, self.given["Thickness"])
-        row = build.node("ShaderNodeAttribute", "Texels/mm, texel width, row, strength")
-        row.attribute_type, row.attribute_name = "OBJECT", ROW_PROPERTY
+        row = _own_row(build)
         texels_per_mm, self.texel_width, self.row = build.split(row.outputs["Vector"])
         self.texel = build.math("MULTIPLY", self.thickness, texels_per_mm, label="Texel")
-        strength = build.math("MULTIPLY", row.outputs["Alpha"], known, label="Strength where known")
-        strength = build.math("MULTIPLY", strength, build.math("ADD", self.given["Mask"], 0.0, clamp=True))
-        self.strength = build.math("MULTIPLY", strength, self.given["Strength"], label="Strength")
+        self.light = Light(self.given, row.outputs["Alpha"], known)
+
+
+class Light(NamedTuple):
+    """What the light is multiplied by before it is added to the surface."""
+
+    given: bpy.types.bpy_prop_collection  #: the group's own inputs
+    strength: Socket  #: of the object
+    known: Socket  #: 0 where there is nothing to show
+
+
+def _own_row(build: NodeBuilder) -> bpy.types.Node:
+    return build.attribute("OBJECT", ROW_PROPERTY, "Texels/mm, texel width, row, strength")
 
 
 #: The mesh attributes that the nodes read, and the nodes' labels.
@@ -58,7 +85,7 @@ def measured_thickness(build: NodeBuilder, given: Socket) -> tuple[Socket, Socke
 
     given  a thickness to use instead of the measured one where it is not negative
     """
-    stored, known = (_mesh_attribute(build, *named) for named in STORED)
+    stored, known = (build.attribute("GEOMETRY", *named).outputs["Fac"] for named in STORED)
     # Between a known and an unknown vertex both are interpolated: their ratio is the known one's thickness.
     measured = build.math("DIVIDE", stored, build.math("MAXIMUM", known, MIN_KNOWN), label="Measured thickness, mm")
     is_measured = build.math("LESS_THAN", given, 0.0, label="No thickness is given")
@@ -69,31 +96,54 @@ def measured_thickness(build: NodeBuilder, given: Socket) -> tuple[Socket, Socke
     )
 
 
-def _mesh_attribute(build: NodeBuilder, name: str, label: str) -> Socket:
-    node = build.node("ShaderNodeAttribute", label)
-    node.attribute_type, node.attribute_name = "GEOMETRY", name
-    return node.outputs["Fac"]
+@contextmanager
+def rebuilding(group: bpy.types.NodeTree) -> Iterator[None]:
+    """Context manager in which a skin group gets other nodes, which show the images that the former ones did.
 
-
-def build_plain(group: bpy.types.NodeTree) -> None:
-    """Rebuilds a skin group's nodes for plain rows, colors by thickness; its image is kept."""
-    image = shown_image(group)
+    Images that none of the new nodes shows are deleted.
+    """
+    images = [(kind, kind.shown(group)) for kind in (ROWS, TILES)]
     clear(group)
     ensure_sockets(group)
-    group.pop(LAYOUT_PROPERTY, None)
-    build = NodeBuilder(group, -700.0, 200.0)
-    row = RowSockets(build)
-    below = build.math("FLOOR", row.texel)
-    fraction = build.math("FRACT", row.texel)
-    colors = []
-    for name, offset in zip(NODE_NAMES, (0.5, 1.5), strict=True):
-        u = build.math("MULTIPLY", build.math("ADD", below, offset), row.texel_width)
-        lookup = new_lookup(build, build.combine(u, row.row), name)
-        colors.append(lookup.outputs["Color"])
-    step = build.vector("SUBTRACT", colors[1], colors[0])
-    finish(build, build.vector("MULTIPLY_ADD", step, fraction, colors[0]), row)
-    if image is not None:
-        show_image(group, image)
+    for name in (LAYOUT_PROPERTY, TILE_NODES_PROPERTY):
+        group.pop(name, None)
+    yield
+    for kind, image in images:
+        if image is None:
+            continue
+        if kind.nodes(group):
+            kind.show(group, image)
+        else:
+            delete_with_slots(image)
+
+
+def build_plain(group: bpy.types.NodeTree, tiles: bool = False) -> None:
+    """Rebuilds a skin group's nodes for plain rows, colors by thickness, and for tiles if wanted."""
+    with rebuilding(group):
+        build = NodeBuilder(group, -700.0, 200.0)
+        row = RowSockets(build)
+        below = build.math("FLOOR", row.texel)
+        fraction = build.math("FRACT", row.texel)
+        colors = []
+        for name, offset in zip(NODE_NAMES, (0.5, 1.5), strict=True):
+            u = build.math("MULTIPLY", build.math("ADD", below, offset), row.texel_width)
+            colors.append(build.texel(build.combine(u, row.row), name).outputs["Color"])
+        step = build.vector("SUBTRACT", colors[1], colors[0])
+        finish(build, build.vector("MULTIPLY_ADD", step, fraction, colors[0]), row.light, tiles)
+
+
+def build_tiles(group: bpy.types.NodeTree) -> None:
+    """Rebuilds a skin group's nodes for tiles alone. The image of the rows is kept by a node without connections."""
+    with rebuilding(group):
+        build = NodeBuilder(group, -700.0, 200.0)
+        given = build.node("NodeGroupInput").outputs
+        strength = _own_row(build).outputs["Alpha"]
+        found = add_tiles(build)
+        shown = build.math("MULTIPLY", found.there, found.use)
+        finish(build, found.color, Light(given, strength, shown))
+        kept = build.node("ShaderNodeTexImage", "Keeps the lookup in the file")
+        kept.name = NODE_NAMES[0]
+        group[TILE_NODES_PROPERTY] = TILES_ONLY
 
 
 def clear(group: bpy.types.NodeTree) -> None:
@@ -105,21 +155,23 @@ def clear(group: bpy.types.NodeTree) -> None:
             bpy.data.node_groups.remove(tree)
 
 
-def new_lookup(build: NodeBuilder, coordinate: Socket, name: str) -> bpy.types.Node:
-    """An image node that reads one texel of a skin's row."""
-    lookup = build.node("ShaderNodeTexImage", "Transmitted light")
-    lookup.name, lookup.extension, lookup.interpolation = name, "EXTEND", "Closest"
-    build.set(lookup.inputs["Vector"], coordinate)
-    return lookup
-
-
-def finish(build: NodeBuilder, color: Socket, row: RowSockets) -> None:
-    """Adds the light to the surface."""
-    tinted = build.vector("MULTIPLY", color, row.given["Tint"])
-    light = build.vector("SCALE", tinted, row.strength, label="Transmitted light")
+def finish(build: NodeBuilder, color: Socket, light: Light, tiles: bool = False) -> None:
+    """Adds the light to the surface; if `tiles`, that of the tiles for the objects that show them."""
+    given, known = light.given, light.known
+    if tiles:
+        found = add_tiles(build)
+        difference = build.vector("SUBTRACT", found.color, color)
+        color = build.vector("MULTIPLY_ADD", difference, found.use, color, label="By tiles or by thickness")
+        known = build.math("MULTIPLY_ADD", build.math("SUBTRACT", found.there, known), found.use, known)
+        build.tree[TILE_NODES_PROPERTY] = TILES_AND_ROWS
+    strength = build.math("MULTIPLY", light.strength, known, label="Strength where known")
+    strength = build.math("MULTIPLY", strength, build.math("ADD", given["Mask"], 0.0, clamp=True))
+    strength = build.math("MULTIPLY", strength, given["Strength"], label="Strength")
+    tinted = build.vector("MULTIPLY", color, given["Tint"])
+    shown = build.vector("SCALE", tinted, strength, label="Transmitted light")
     emission, add, out = (build.node(kind) for kind in ("ShaderNodeEmission", "ShaderNodeAddShader", "NodeGroupOutput"))
-    build.set(emission.inputs["Color"], light)
-    build.set(add.inputs[0], row.given["Surface"])
+    build.set(emission.inputs["Color"], shown)
+    build.set(add.inputs[0], given["Surface"])
     build.set(add.inputs[1], emission.outputs[0])
     build.set(out.inputs["Shader"], add.outputs[0])
-    build.set(out.inputs["Light"], light)
+    build.set(out.inputs["Light"], shown)

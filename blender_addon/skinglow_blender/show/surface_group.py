@@ -9,20 +9,21 @@ from functools import partial, reduce
 
 import bpy
 
-from .. import blender_version
 from ..table.lut_layout import LAYOUT_PROPERTY, Layout
-from .group_sockets import ensure_sockets
 from .light_term_nodes import FarSide, LightTexels, light_irradiance
-from .lut_image import SURFACE_NODE, TEXEL_NODE, show_image, shown_image
-from .node_building import NodeBuilder, Socket
-from .skin_group import INNER_GROUPS, RowSockets, clear, finish, new_lookup
+from .lut_image import SURFACE_NODE, TEXEL_NODE
+from .node_building import NodeBuilder, Socket, inner_group
+from .skin_group import INNER_GROUPS, RowSockets, finish, rebuilding
 
 
-def build_surface(group: bpy.types.NodeTree, layout: Layout) -> None:
-    """Rebuilds a skin group's nodes for that layout; its images are kept."""
-    image = shown_image(group)
-    clear(group)
-    ensure_sockets(group)
+def build_surface(group: bpy.types.NodeTree, layout: Layout, tiles: bool = False) -> None:
+    """Rebuilds a skin group's nodes for that layout, and for tiles if wanted."""
+    with rebuilding(group):
+        _build(group, layout, tiles)
+        group[LAYOUT_PROPERTY] = tuple(int(n) for n in layout)
+
+
+def _build(group: bpy.types.NodeTree, layout: Layout, tiles: bool) -> None:
     build = NodeBuilder(group, -2400.0, 200.0)
     row = RowSockets(build)
     texels = _Texels(build, row, _texel_group())
@@ -35,7 +36,7 @@ def build_surface(group: bpy.types.NodeTree, layout: Layout) -> None:
     for count, profiled in ((layout.plain, False), (layout.profiled, True)):
         inner = _light_group(profiled) if count else None
         for i in range(count):
-            light_node = _instance(build, inner, f"Light {i + 1}{' with profile' if profiled else ''}")
+            light_node = build.instance(inner, f"Light {i + 1}{' with profile' if profiled else ''}")
             for k, part in enumerate(LightTexels.parts(profiled)):
                 color, alpha = texels.read(first + 4 * i + k)
                 build.set(light_node.inputs[part], color)
@@ -51,10 +52,7 @@ def build_surface(group: bpy.types.NodeTree, layout: Layout) -> None:
         # Clamp the sum, not the polynomial: far lights of negative power take light from the others.
         shown = build.vector("MAXIMUM", reduce(partial(build.vector, "ADD"), parts), (0.0, 0.0, 0.0))
         light = build.vector("ADD", constant, shown)
-    finish(build, _transmitted(build, row, texels, layout, light), row)
-    group[LAYOUT_PROPERTY] = tuple(int(n) for n in layout)
-    if image is not None:
-        show_image(group, image)
+    finish(build, _transmitted(build, row, texels, layout, light), row.light, tiles)
 
 
 def _transmitted(build: NodeBuilder, row: RowSockets, texels: "_Texels", layout: Layout, light: Socket) -> Socket:
@@ -83,7 +81,7 @@ class _Texels:
         self.build, self.row, self.inner = build, row, inner
 
     def _node(self, texel: Socket | float) -> bpy.types.Node:
-        node = _instance(self.build, self.inner, "Texel")
+        node = self.build.instance(self.inner, "Texel")
         if TEXEL_NODE not in self.build.tree.nodes:
             node.name = TEXEL_NODE
         for name, value in (("Texel", texel), ("Texel width", self.row.texel_width), ("Row", self.row.row)):
@@ -100,30 +98,15 @@ class _Texels:
         return self._node(texel).outputs["Color"]
 
 
-def _instance(build: NodeBuilder, inner: bpy.types.NodeTree, label: str) -> bpy.types.Node:
-    node = build.node("ShaderNodeGroup", label)
-    node.node_tree = inner
-    return node
-
-
-def _inner_group(name: str, inputs: dict[str, str], outputs: dict[str, str]) -> tuple[NodeBuilder, bpy.types.Node]:
-    tree = bpy.data.node_groups.new(name, "ShaderNodeTree")
-    for in_out, sockets in (("INPUT", inputs), ("OUTPUT", outputs)):
-        for socket, kind in sockets.items():
-            blender_version.new_group_socket(tree, socket, kind, in_out, "")
-    build = NodeBuilder(tree, 0.0, 0.0)
-    return build, build.node("NodeGroupInput")
-
-
 def _texel_group() -> bpy.types.NodeTree:
-    build, entry = _inner_group(
+    build, entry = inner_group(
         INNER_GROUPS[0],
         {"Texel": "Float", "Texel width": "Float", "Row": "Float"},
         {"Color": "Color", "Alpha": "Float"},
     )
     center = build.math("ADD", entry.outputs["Texel"], 0.5)
     u = build.math("MULTIPLY", center, entry.outputs["Texel width"])
-    lookup = new_lookup(build, build.combine(u, entry.outputs["Row"]), SURFACE_NODE)
+    lookup = build.texel(build.combine(u, entry.outputs["Row"]), SURFACE_NODE)
     out = build.node("NodeGroupOutput")
     build.set(out.inputs["Color"], lookup.outputs["Color"])
     build.set(out.inputs["Alpha"], lookup.outputs["Alpha"])
@@ -135,7 +118,7 @@ def _light_group(profiled: bool) -> bpy.types.NodeTree:
     for part in LightTexels.parts(profiled):
         inputs |= {part: "Vector", f"{part} 4": "Float"}
     inputs |= {"far point": "Vector", "normal": "Vector"} | {f"angular {k}": "Vector" for k in range(4)}
-    build, entry = _inner_group(INNER_GROUPS[2 if profiled else 1], inputs, {"Irradiance": "Vector"})
+    build, entry = inner_group(INNER_GROUPS[2 if profiled else 1], inputs, {"Irradiance": "Vector"})
     given = entry.outputs
     light = LightTexels(*((given[part], given[f"{part} 4"]) for part in LightTexels.parts(profiled)))
     far = FarSide(given["far point"], given["normal"], tuple(given[f"angular {k}"] for k in range(4)))

@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The images that a node group shows, four of a kind, and the way new pixels reach the renderers.
+
+Cycles never reloads an image. While a Cycles view is open we therefore write the hidden image of a pair and swap it
+in; otherwise we write the visible one, which is cheaper. Viewport and render see different lights, so each has its own
+pair, and the viewport's picture is restored after a render without computing anything.
+"""
+
+from collections.abc import Callable
+
+import bpy
+import numpy as np
+
+from .. import blender_version
+from ..errors import SkinError
+from ..read import working_space
+
+FIRST_ROWS = 16
+SLOTS = ("viewport_a", "viewport_b", "render_a", "render_b")
+
+
+class GroupImages:
+    """Images of one kind: which nodes of a group show them, and how they are found, made and deleted."""
+
+    def __init__(self, title: str, nodes: Callable[[bpy.types.NodeTree], list[bpy.types.Node]]) -> None:
+        """title: their names in the file; nodes: the nodes of a group that show such an image."""
+        self.title, self.nodes = title, nodes
+
+    def shown(self, group: bpy.types.NodeTree) -> bpy.types.Image | None:
+        """The image in a group's nodes."""
+        nodes = self.nodes(group)
+        return nodes[0].image if nodes else None
+
+    def show(self, group: bpy.types.NodeTree, image: bpy.types.Image) -> None:
+        """Puts an image into a group's nodes."""
+        for node in self.nodes(group):
+            # Assigning an equal value also tags the node tree, and each tag restarts the viewport.
+            if node.image != image:
+                node.image = image
+
+    def all_of(self, group: bpy.types.NodeTree) -> list[bpy.types.Image]:
+        """A group's four images in the order of SLOTS; fewer if some were deleted."""
+        return slots_of(self.shown(group))
+
+    def pair(self, group: bpy.types.NodeTree, mode: str) -> tuple[bpy.types.Image, bpy.types.Image]:
+        """The two images of a depsgraph mode, 'VIEWPORT' or 'RENDER'."""
+        images = self.all_of(group)
+        if len(images) != len(SLOTS):
+            raise SkinError(f"An image of the node group '{group.name}' was deleted: make the skin again to restore it")
+        return (images[2], images[3]) if mode == "RENDER" else (images[0], images[1])
+
+    def has_room(self, group: bpy.types.NodeTree, width: int, rows: int) -> bool:
+        """Whether a group's images exist and are that large."""
+        images = self.all_of(group)
+        return len(images) == len(SLOTS) and all(i.size[0] >= width and i.size[1] >= rows for i in images)
+
+    def ensure(self, group: bpy.types.NodeTree, width: int, rows: int) -> None:
+        """Creates or enlarges a group's images to be that large. Not while rendering."""
+        if self.has_room(group, width, rows):
+            return
+        images = self.all_of(group)
+        if len(images) != len(SLOTS):
+            self.renew(group, width, rows)
+            return
+        width, rows = max(width, images[0].size[0]), max(power_of_two(rows), images[0].size[1])
+        for image in images:
+            image.scale(width, rows)
+
+    def renew(self, group: bpy.types.NodeTree, width: int, rows: int) -> None:
+        """Gives a group four new images of at least that size, empty until the next update. Not while rendering."""
+        images = []
+        try:
+            for slot in SLOTS:
+                name = f".Skinglow {self.title} {slot.replace('_', ' ')}"
+                images.append(_new_image(name, width, power_of_two(rows)))
+        except SkinError:
+            for image in images:
+                bpy.data.images.remove(image)
+            raise
+        # Each points to all four, so that the visible one keeps the others in the file and in appended copies.
+        for image in images:
+            for slot, other in zip(SLOTS, images, strict=True):
+                setattr(image.skinglow, slot, other)
+        self.show(group, images[0])
+
+    def remove(self, group: bpy.types.NodeTree) -> None:
+        """Deletes a group's images."""
+        delete_with_slots(self.shown(group))
+
+
+def slots_of(image: bpy.types.Image | None) -> list[bpy.types.Image]:
+    """The images that one of them, or a sequence in their place, points to."""
+    if image is None:
+        return []
+    return [each for each in (getattr(image.skinglow, slot) for slot in SLOTS) if each is not None]
+
+
+def delete_with_slots(image: bpy.types.Image | None) -> None:
+    """Deletes an image and those that it points to, unless they are a library's."""
+    images = {image, *slots_of(image)} - {None}
+    delete_images([each for each in images if each.library is None])
+
+
+def delete_images(images: list[bpy.types.Image]) -> None:
+    """Deletes images that may point to each other: Blender 5.0 crashes over what points to a deleted image."""
+    for image in images:
+        for slot in SLOTS:
+            image.skinglow.property_unset(slot)
+    for image in images:
+        bpy.data.images.remove(image)
+
+
+def power_of_two(rows: int) -> int:
+    """The height of an image of that many rows."""
+    height = FIRST_ROWS
+    while height < rows:
+        height *= 2
+    return height
+
+
+def _new_image(name: str, width: int, height: int) -> bpy.types.Image:
+    image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
+    try:
+        # Must be set before the pixels: setting it clears them.
+        image.colorspace_settings.name = blender_version.data_color_space(image)
+    except SkinError:
+        bpy.data.images.remove(image)
+        raise
+    image.alpha_mode = "CHANNEL_PACKED"
+    # Otherwise EEVEE would upload half floats.
+    image.use_half_precision = False
+    return image
+
+
+class PairContents:
+    """The contents of one pair of images; cached, since reading pixels back is slow."""
+
+    def __init__(self, images: GroupImages, group: bpy.types.NodeTree, mode: str) -> None:
+        self.images, self.mode = images, mode
+        pair = images.pair(group, mode)
+        self._data = self._addresses(group)
+        width, height = pair[0].size
+        self.pixels = np.zeros((height, width, 4), np.float32)
+        self.space = working_space.working_space()
+        self.is_dirty = False
+        #: Which image of the pair is up to date, and whether a renderer may have read it since it was written.
+        self.front = 1 if images.shown(group) == pair[1] else 0
+        self.was_shown = True
+        self._is_compared = False
+
+    def fits(self, group: bpy.types.NodeTree) -> bool:
+        """Whether group and images, their size, and the file's working space are still those of this object.
+
+        A group made anew has the name of the deleted one.
+        """
+        if self._data != self._addresses(group):
+            return False
+        width, height = self.images.pair(group, self.mode)[0].size
+        return self.pixels.shape[:2] == (height, width) and self.space == working_space.working_space()
+
+    def write(self, group: bpy.types.NodeTree) -> None:
+        """Writes the pixels into an image that no renderer holds a copy of.
+
+        The first time only if it differs: a file that was opened and not changed is not to be saved again.
+        """
+        pair = self.images.pair(group, self.mode)
+        if not self._is_compared:
+            self._is_compared = True
+            if np.array_equal(read_pixels(pair[self.front]), self.pixels):
+                self.is_dirty = False
+                return
+        if self.was_shown and (self.mode == "RENDER" or is_rendered_in_view()):
+            self.front = 1 - self.front
+            self.was_shown = False
+        image = pair[self.front]
+        image.pixels.foreach_set(self.pixels.ravel())
+        self.is_dirty = False
+        # Drop the GPU texture of the old pixels.
+        image.gl_free()
+
+    def show(self, group: bpy.types.NodeTree) -> None:
+        """Puts the up-to-date image into the nodes, unless it is there already."""
+        image = self.images.pair(group, self.mode)[self.front]
+        if self.mode == "RENDER" and self.images.shown(group) != image:
+            _keep_animated()
+        self.images.show(group, image)
+        self.was_shown = True
+
+    def _addresses(self, group: bpy.types.NodeTree) -> tuple[int, ...]:
+        return tuple(data.as_pointer() for data in (group, *self.images.pair(group, self.mode)))
+
+
+def _keep_animated() -> None:
+    """Has Blender evaluate the animation of materials again.
+
+    A change of their nodes copies them anew, with the values of the frame that the viewport shows.
+    """
+    materials = [owner for m in bpy.data.materials for owner in (m, m.node_tree) if owner is not None]
+    for owner in (*materials, *bpy.data.node_groups):
+        if owner.animation_data is not None:
+            owner.update_tag(refresh={"TIME"})
+
+
+#: Engines that draw images as GPU textures, which are updated.
+RASTER_ENGINES = ("BLENDER_EEVEE", "BLENDER_EEVEE_NEXT", "BLENDER_WORKBENCH")
+
+
+def is_rendered_in_view() -> bool:
+    """Whether Cycles, or another renderer that may cache images, renders in a 3D view.
+
+    Any other render starts from scratch. Swapping images is the largest cost of a changed light, since Blender then
+    updates every material with the group.
+    """
+    if bpy.app.background:
+        return False
+    for window in bpy.context.window_manager.windows:
+        if window.scene.render.engine in RASTER_ENGINES:
+            continue
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D" and area.spaces.active.shading.type == "RENDERED":
+                return True
+    return False
+
+
+def read_pixels(image: bpy.types.Image) -> np.ndarray:
+    """All texels, (height, width, 4) float32, unconverted."""
+    width, height = image.size
+    pixels = np.empty(width * height * 4, np.float32)
+    image.pixels.foreach_get(pixels)
+    return pixels.reshape(height, width, 4)

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tiles of all skins of a node group in one image: the light at each point of the skin (image_pairs.py).
+
+Each skin has a range of rows of its own. The corners of its mesh know their texel in it (tile_attribute.py), and the
+object's custom property where the range begins.
+"""
+
+from collections.abc import Mapping
+
+import bpy
+import numpy as np
+
+from ..errors import SkinError, core
+from ..identity import key_of
+from ..session import SESSION
+from ..thickness.tile_attribute import rows_of
+from .image_pairs import GroupImages, PairContents, power_of_two
+from .lut_image import TILE_NODES_PROPERTY
+
+#: The node of the inner group that reads a texel, and the image node in it.
+TILE_NODE, TILE_IMAGE_NODE = "Tile texel", "Tile"
+#: Custom property of a skin object that its node group reads: first row, width and height of a texel, and whether its
+#: tiles are shown, 1 or 0.
+TILE_PROPERTY = "skinglow_tiles"
+DARK = (0.0, 0.0, 0.0, 0.0)
+
+
+def tile_nodes(group: bpy.types.NodeTree) -> list[bpy.types.Node]:
+    """The node through which a group reads the image of its tiles; empty if it has none."""
+    if TILE_NODES_PROPERTY not in group:
+        return []
+    texel = group.nodes.get(TILE_NODE)
+    node = texel.node_tree.nodes.get(TILE_IMAGE_NODE) if texel is not None and texel.node_tree is not None else None
+    return [node] if node is not None else []
+
+
+TILES = GroupImages("Tiles", tile_nodes)
+
+
+class TileAtlas(PairContents):
+    """The tiles of one node group's images for one depsgraph mode. Alpha is the thickness in mm."""
+
+    def __init__(self, group: bpy.types.NodeTree, mode: str) -> None:
+        super().__init__(TILES, group, mode)
+        self._written: dict[str, tuple[int, object]] = {}
+
+    def holds(self, key: str, first_row: int, source: object) -> bool:
+        """Whether a skin's rows hold exactly what this object was put for."""
+        row, written = self._written.get(key, (None, None))
+        return row == first_row and written is source
+
+    def put(self, key: str, first_row: int, source: object, pixels: np.ndarray) -> None:
+        """Copies the pixels (h, width, 4) of a skin into its rows. source: what they were made from, for `holds`."""
+        self.pixels[first_row : first_row + len(pixels)] = pixels
+        self._written[key] = first_row, source
+        self.is_dirty = True
+
+
+def tile_atlas(group: bpy.types.NodeTree, mode: str) -> TileAtlas:
+    """The cached contents of a group's tile images; new and empty where these changed."""
+    key = (key_of(group), mode)
+    atlas = SESSION.tile_atlases.get(key)
+    if atlas is None or not atlas.fits(group):
+        atlas = SESSION.tile_atlases[key] = TileAtlas(group, mode)
+    return atlas
+
+
+def place_tiles(group: bpy.types.NodeTree, heights: Mapping[bpy.types.Object, int]) -> dict[str, int]:
+    """The first row of each skin's tiles, by key; enlarges the images where they are too small.
+
+    heights  the rows that each skin of the group needs. Those that it had before are kept where nothing else needs
+             them, also by skins that are not among these.
+    Raises SkinError if the images are too small while Blender renders.
+    """
+    placed = SESSION.tile_rows.setdefault(key_of(group), {})
+    wanted = {key_of(obj): height for obj, height in heights.items()}
+    if any(placed.get(key, (0, -1))[1] != height for key, height in wanted.items()):
+        others = [o for o in bpy.data.objects if o.skinglow.group == group and o not in heights and TILE_PROPERTY in o]
+        taken = [_stored_range(obj, placed) for obj in others if obj.skinglow.enabled]
+        # By row: it stays, so that a copy moves and not the one that was copied.
+        for obj in sorted(heights, key=lambda obj: (key_of(obj) not in placed, obj.skinglow.row)):
+            height = heights[obj]
+            first = _stored_range(obj, placed)[0]
+            if first < 0 or not _is_free(first, height, taken):
+                ends = [0, *(end for _start, end in taken)]
+                first = min(end for end in ends if _is_free(end, height, taken))
+            taken.append((first, first + height))
+            placed[key_of(obj)] = first, height
+    _make_room(group, max((sum(placed[key]) for key in wanted), default=1))
+    return {key: placed[key][0] for key in wanted}
+
+
+def _stored_range(obj: bpy.types.Object, placed: Mapping[str, tuple[int, int]]) -> tuple[int, int]:
+    """First row and the one behind the last, as far as they are known; (-1, -1): none."""
+    if key_of(obj) in placed:
+        first, height = placed[key_of(obj)]
+        return first, first + height
+    stored = obj.get(TILE_PROPERTY)
+    if stored is None or stored[1] == 0.0:
+        return -1, -1
+    return int(stored[0]), int(stored[0]) + rows_of(obj.data)
+
+
+def _is_free(first: int, height: int, taken: list[tuple[int, int]]) -> bool:
+    return all(first + height <= start or end <= first for start, end in taken)
+
+
+def _make_room(group: bpy.types.NodeTree, rows: int) -> None:
+    width = core().FaceTiles.WIDTH
+    if TILES.has_room(group, width, rows):
+        return
+    if SESSION.rendering:
+        raise SkinError("its tile images are too small and cannot be enlarged while rendering: update before rendering")
+    TILES.ensure(group, width, power_of_two(rows))
+
+
+def show_tiles(obj: bpy.types.Object, atlas: TileAtlas | None, first_row: int = 0, use: bool = True) -> None:
+    """Sets the property by which the object's material finds its tiles; without an atlas they are not shown."""
+    height, width = atlas.pixels.shape[:2] if atlas is not None else (0, 0)
+    wanted = (float(first_row), 1.0 / width, 1.0 / height, float(use)) if atlas is not None else DARK
+    set_tile_property(obj, wanted, during_render=atlas is not None and atlas.mode == "RENDER")
+
+
+def set_tile_property(
+    obj: bpy.types.Object, wanted: tuple[float, float, float, float], during_render: bool = False
+) -> None:
+    """Writes the property if it differs, and has Blender evaluate the object again."""
+    if tuple(obj.get(TILE_PROPERTY, DARK)) != wanted:
+        obj[TILE_PROPERTY] = wanted
+        # In an animation render the object itself is at the frame where that began: its keys have to be evaluated
+        # again. In the viewport that would take back what was edited and not keyed yet.
+        obj.update_tag(refresh={"OBJECT", "TIME"} if during_render else {"OBJECT"})

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the corners of a mesh's faces are in the image of its tiles, stored as the attribute that the nodes read.
+
+The tiles belong to faces and corners: moving vertices keeps them, adding or deleting some does not.
+"""
+
+import hashlib
+
+import bpy
+import numpy as np
+
+from ..errors import core
+from ..read.measured_geometry import unit_mm
+from .thickness_attribute import SUMMARY, check_local, read
+
+TEXEL_ATTRIBUTE = "skinglow_texel"
+#: Mesh property: digest of faces and corners, rows, number of tiles, spacing in mm, and what they were made for.
+TILES_OF_MESH = "skinglow_tiles"
+#: Skin up to this thickness, mm, gets tiles: light does not come through thicker flesh (skinglow.Shape).
+MAX_THICKNESS_MM = 25.0
+#: Distance of texels, mm.
+SPACING_MM = 0.8
+
+
+def ensure_tiles(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
+    """Makes tiles for a mesh unless it has some for these faces and this thickness; returns whether it did.
+
+    Raises SkinError if the mesh is linked from a library and has none.
+    """
+    mesh = obj.data
+    if is_current(mesh) and is_of_this_mesh(mesh):
+        return False
+    if mesh.library is not None and is_of_this_mesh(mesh):
+        return False
+    check_local(obj)
+    sizes, corners = _faces(mesh)
+    vertices = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", vertices)
+    thickness, known = read(mesh)
+    made = core().FaceTiles(
+        vertices.reshape(-1, 3) @ np.array(obj.matrix_world, np.float64)[:3, :3].T,
+        sizes,
+        corners,
+        known & (thickness <= MAX_THICKNESS_MM),
+        unit_mm=unit_mm(obj, scene),
+        spacing_mm=SPACING_MM,
+    )
+    attribute = mesh.attributes.get(TEXEL_ATTRIBUTE)
+    if attribute is not None and (attribute.domain, attribute.data_type) != ("CORNER", "FLOAT_VECTOR"):
+        mesh.attributes.remove(attribute)
+        attribute = None
+    if attribute is None:
+        attribute = mesh.attributes.new(TEXEL_ATTRIBUTE, "FLOAT_VECTOR", "CORNER")
+    attribute.data.foreach_set("vector", np.ascontiguousarray(made.texels, np.float32).ravel())
+    mesh[TILES_OF_MESH] = {
+        "faces": _digest(sizes, corners),
+        "rows": int(made.height),
+        "tiles": int(made.tiles),
+        "spacing_mm": float(made.spacing_mm),
+        "made_for": _made_for(mesh),
+    }
+    mesh.update()
+    return True
+
+
+def is_current(mesh: bpy.types.Mesh) -> bool:
+    """Whether a mesh has tiles, made for the thickness that it has; a quick look, which does not see every edit."""
+    stored = mesh.get(TILES_OF_MESH)
+    return stored is not None and TEXEL_ATTRIBUTE in mesh.attributes and list(stored["made_for"]) == _made_for(mesh)
+
+
+def is_of_this_mesh(mesh: bpy.types.Mesh) -> bool:
+    """Whether a mesh has tiles, made for exactly its faces and corners."""
+    stored, attribute = mesh.get(TILES_OF_MESH), mesh.attributes.get(TEXEL_ATTRIBUTE)
+    if stored is None or attribute is None or (attribute.domain, attribute.data_type) != ("CORNER", "FLOAT_VECTOR"):
+        return False
+    return stored["faces"] == _digest(*_faces(mesh))
+
+
+def rows_of(mesh: bpy.types.Mesh) -> int:
+    """The rows of a mesh's tiles; 0 if it has none."""
+    stored = mesh.get(TILES_OF_MESH)
+    return int(stored["rows"]) if stored is not None else 0
+
+
+def texels_of(mesh: bpy.types.Mesh) -> np.ndarray | None:
+    """Texel x, y and 1 + tile at each corner, (c, 3) float32, of an evaluated mesh too; None: it has none."""
+    attribute = mesh.attributes.get(TEXEL_ATTRIBUTE)
+    if attribute is None or (attribute.domain, len(attribute.data)) != ("CORNER", len(mesh.loops)):
+        return None
+    values = np.empty(3 * len(mesh.loops), np.float32)
+    attribute.data.foreach_get("vector", values)
+    return values.reshape(-1, 3)
+
+
+def remove_tiles(mesh: bpy.types.Mesh) -> None:
+    """Removes attribute and property."""
+    attribute = mesh.attributes.get(TEXEL_ATTRIBUTE)
+    if attribute is not None:
+        mesh.attributes.remove(attribute)
+    mesh.pop(TILES_OF_MESH, None)
+
+
+def _faces(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Corners per face, and the vertex of each corner."""
+    sizes, corners = np.empty(len(mesh.polygons), np.int32), np.empty(len(mesh.loops), np.int32)
+    mesh.polygons.foreach_get("loop_total", sizes)
+    mesh.loops.foreach_get("vertex_index", corners)
+    return sizes, corners
+
+
+def _digest(sizes: np.ndarray, corners: np.ndarray) -> str:
+    return hashlib.sha256(sizes.tobytes() + corners.tobytes()).hexdigest()
+
+
+def _made_for(mesh: bpy.types.Mesh) -> list[float]:
+    """What changes when another thickness is stored, or the mesh gets other faces; quick to find."""
+    return [float(len(mesh.polygons)), float(len(mesh.loops)), SPACING_MM, *mesh.get(SUMMARY, ())]
