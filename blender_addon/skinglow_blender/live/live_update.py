@@ -20,7 +20,7 @@ from ..table.lut_layout import layout_of, plain_row, surface_row
 from ..table.occlusion import with_visible_fractions
 from ..table.skin_tables import Signature, Table, compute_table, signature_of
 from ..table.texel_mapping import texels_per_mm
-from . import shape_update
+from . import shape_answers, shape_update
 from .frozen_update import follow_frozen, mark_of
 from .shape_tiles import hide_tiles, write_tiles
 
@@ -79,12 +79,13 @@ def update_scene(
                 faults[skin.key] = f"{skin.name}: {error}"
     SESSION.faults = faults
     shape_update.forget_lost({skin.key for _obj, skin in reading.skins if skin.shape is not None})
+    shape_answers.take_soon()
     return rebuilt
 
 
 def _as_can_be(obj: bpy.types.Object, skin: Skin, depsgraph: bpy.types.Depsgraph) -> Skin:
     """The skin, lit per pixel if its light cannot be shown through its shape."""
-    if skin.shape is None or not shape_update.prepare(obj, skin, depsgraph).reason:
+    if skin.shape is None or shape_update.prepare(obj, skin, depsgraph).reason is None:
         return skin
     evaluated = obj.evaluated_get(depsgraph)
     return lit_per_pixel(skin, evaluated, evaluated.matrix_world)
@@ -223,7 +224,7 @@ def _fit_nodes(group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy.
     if wanted.layout is not None:
         ensure_images(group, wanted.layout.width, atlas.pixels.shape[0])
     build_nodes(group, wanted)
-    return wanted.layout != there.layout or not _atlas_fits(group, atlas)
+    return not atlas.fits(group)
 
 
 def _wanted_nodes(
@@ -320,6 +321,8 @@ REASONS = {
     "point": "reference point",
     "weights": "weights",
     "surface": "its position or shape",
+    "shape": "its position, size, cells or medium",
+    "mesh": "its mesh",
     "world": "world",
 }
 

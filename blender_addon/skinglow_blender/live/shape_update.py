@@ -41,13 +41,25 @@ REST = 0.4
 #: Errors of the core that are told to the user.
 FAILURES = (ValueError, RuntimeError, MemoryError, SkinError, ImportError)
 
-NO_TILES = "the place of its faces in the tiles is not stored yet"
-EDITED = "its faces were edited after their place in the tiles was stored: press Repair"
-LINKED = "its mesh is linked from a library, which stores no tiles for it: make the skin there, or make the mesh local"
-ALL_THICK = "it is so thick everywhere that no light comes through"
-NOT_IN_EDIT_MODE = "it is in Edit Mode"
-OVERLAPPING = "its modifiers show the same faces at several places (as Mirror and Array do): apply them, then Repair"
-MIXED = "its modifiers make faces anew (as Decimate, Remesh and Weld do): apply them, then Repair"
+
+class Unfit(NamedTuple):
+    """Why the light of a skin cannot be shown through its shape."""
+
+    why: str
+    remedy: str
+
+
+APPLY = "apply them (Object > Apply > Visual Geometry to Mesh), then press Repair"
+NO_TILES = Unfit("the place of its faces in the tiles is not stored yet", "press Repair")
+EDITED = Unfit("its faces were edited after their place in the tiles was stored", "press Repair")
+LINKED = Unfit(
+    "its mesh is linked from a library, where it has no tiles",
+    "make the skin in that file, or make object and data local",
+)
+ALL_THICK = Unfit("it is so thick everywhere that no light comes through", "look whether Unit is right")
+EDIT_MODE = Unfit("it is in Edit Mode", "leave it (Tab)")
+OVERLAPPING = Unfit("its modifiers show the same faces at several places, as Mirror and Array do", APPLY)
+MIXED = Unfit("its modifiers make faces anew, as Decimate, Remesh and Weld do", APPLY)
 
 
 class Shown(NamedTuple):
@@ -63,7 +75,7 @@ class ShapeState:
 
     def __init__(self) -> None:
         self.mesh: ShownMesh | None = None
-        self.reason = ""  #: why its light cannot be shown through its shape, or ""
+        self.reason: Unfit | None = None  #: None: its light can be shown through its shape
         self.tiles: Tiles | None = None
         self.key: BodyKey | None = None
         self.body: Body | None = None
@@ -116,39 +128,45 @@ def prepare(obj: bpy.types.Object, skin: Skin, depsgraph: bpy.types.Depsgraph) -
     evaluated = obj.evaluated_get(depsgraph)
     if evaluated.mode == "EDIT" or obj.mode == "EDIT":
         # What was shown before goes on being shown: nothing is solved in a mesh that is being edited.
-        state.reason = "" if state.shown is not None else NOT_IN_EDIT_MODE
+        state.reason = None if state.shown is not None else EDIT_MODE
         return state
     if SESSION.shown_meshes is None:
         SESSION.shown_meshes = ShownMeshes()
     mesh = SESSION.shown_meshes.read(evaluated, depsgraph)
     settings = skin.shape
     key = BodyKey(
-        mesh.version, rows_of(obj.data), settings.frame, settings.unit_mm, settings.cell_mm, settings.medium, skin.base[3]
+        mesh.version,
+        rows_of(obj.data),
+        settings.frame,
+        settings.unit_mm,
+        settings.cell_mm,
+        settings.medium,
+        skin.base[3],
     )
     is_new = state.mesh is None or state.mesh.version != mesh.version
     state.mesh = mesh
     if is_new or state.tiles is None or not state.key.same_place(key):
         state.tiles = None
         state.reason = _reason_without_tiles(obj, mesh)
-        if not state.reason:
+        if state.reason is None:
             state.tiles = _tiles_of(skin, key) or _new_tiles(evaluated, mesh, skin, key)
             state.reason = _reason_of(state.tiles)
     state.key = key
     return state
 
 
-def _reason_without_tiles(obj: bpy.types.Object, mesh: ShownMesh) -> str:
+def _reason_without_tiles(obj: bpy.types.Object, mesh: ShownMesh) -> Unfit | None:
     if TILES_OF_MESH not in obj.data:
         return LINKED if obj.data.library is not None else NO_TILES
     if rows_of(obj.data) == 0:
         return ALL_THICK
-    return "" if mesh.texels is not None and is_of_this_mesh(obj.data) else EDITED
+    return None if mesh.texels is not None and is_of_this_mesh(obj.data) else EDITED
 
 
-def _reason_of(tiles: Tiles) -> str:
+def _reason_of(tiles: Tiles) -> Unfit | None:
     if tiles.targets.overlapping > MAX_UNFIT:
         return OVERLAPPING
-    return MIXED if tiles.targets.mixed > MAX_UNFIT else ""
+    return MIXED if tiles.targets.mixed > MAX_UNFIT else None
 
 
 def _tiles_of(skin: Skin, key: BodyKey) -> Tiles | None:
@@ -200,6 +218,24 @@ def follow(state: ShapeState, skin: Skin, table: Table, reading: SceneReading, m
         )
     if state.shown is None or state.shown.tiles is not state.tiles:
         state.shown = Shown(state.tiles, by_table(state.tiles, table.colors, table.texel_mapping), None)
+
+
+def keep(state: ShapeState, skin: Skin) -> bool:
+    """Whether a skin that is not live goes on showing what it shows, in this depsgraph mode or in the other."""
+    if state.tiles is None:
+        return True
+    for mode in ("VIEWPORT", "RENDER"):
+        other = state_of(skin.key, mode)
+        if other is not None and other.shown is not None and other.shown.tiles is state.tiles:
+            state.shown = state.shown if state.shown is not None else other.shown
+            return state.shown.tiles is state.tiles
+    return False
+
+
+def mesh_version(key: str, mode: str) -> int | None:
+    """The version of the mesh that light is solved in."""
+    state = state_of(key, mode)
+    return state.mesh.version if state is not None and state.mesh is not None else None
 
 
 def light_of(skin: Skin, reading: SceneReading) -> Light:
@@ -290,7 +326,7 @@ class ShapeReport(NamedTuple):
     thick_points: int  #: of them those in no thin part, through which no light comes
     milliseconds: float | None  #: that the last answer took
     error: tuple[float, ...]  #: (r, g, b): estimated error, RMS over mean; empty before the full answer
-    reason: str  #: why the skin is lit per pixel instead, or ""
+    reason: Unfit | None  #: why the skin is lit per pixel instead; None: it is not
 
 
 def shape_report(obj: bpy.types.Object, mode: str = "VIEWPORT") -> ShapeReport | None:

@@ -170,7 +170,7 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
     )
 
     mode: EnumProperty(name="Mode", items=MODES, default="PHYSICAL", options={"SKIP_SAVE"})
-    weights: EnumProperty(name="Lighting", items=LIGHTINGS, default="OBJECT", options={"SKIP_SAVE"})
+    weights: EnumProperty(name="Lighting", items=LIGHTINGS, default="SHAPE", options={"SKIP_SAVE"})
     preset: EnumProperty(name="Preset", items=PRESETS[1:], default="LIGHT", options={"SKIP_SAVE"})
     unit_mm: FloatProperty(
         name="Unit",
@@ -223,7 +223,7 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
     def _settings(self, obj: bpy.types.Object) -> dict[str, object]:
         """What was chosen in Adjust Last Operation; for a new skin, what the preferences say of the rest."""
         chosen = {name: getattr(self, name) for name in CHOICES if self.properties.is_property_set(name)}
-        return chosen if obj.skinglow.enabled else of_new_skins() | chosen
+        return chosen if obj.skinglow.enabled else {"weights": self.weights} | of_new_skins() | chosen
 
 
 class SKINGLOW_OT_measure_thickness(_MeasuringOperator, bpy.types.Operator):  # noqa: N801
