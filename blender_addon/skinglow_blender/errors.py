@@ -8,6 +8,10 @@ class SkinError(RuntimeError):
     """An error that the user can fix; the message says what is wrong, where, and how to fix it."""
 
 
+class TemporaryError(SkinError):
+    """A cause that may be gone at another try: a full disk, a network folder that does not answer."""
+
+
 def core() -> ModuleType:
     """The Python package `skinglow`, which does all computation. Raises SkinError if it is missing."""
     try:

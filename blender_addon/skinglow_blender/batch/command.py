@@ -5,6 +5,7 @@ import argparse
 import signal
 import sys
 import threading
+import traceback
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,13 +14,16 @@ from typing import NoReturn
 import bpy
 
 from ..commands.freezing import FOLDER, freeze
-from ..errors import SkinError
+from ..errors import SkinError, TemporaryError
 from .frames import parse_frames
 from .pictures import PATTERN
-from .render import BatchStep, render_batch
+from .progress import MANAGERS, Progress, say, why_failed
+from .render import render_batch
+from .worker import PathMapping, worker_name
 
-#: Exit codes: all done; some pictures failed, the others are done; bad arguments, nothing done; stopped by Ctrl-C.
-DONE, SOME_FAILED, BAD_ARGUMENTS, STOPPED = 0, 1, 2, 130
+#: Exit codes: all done; failed, another try may help; bad arguments, nothing done; some pictures would fail again, the
+#: others are done; stopped by Ctrl-C or SIGTERM.
+DONE, TRY_AGAIN, BAD_ARGUMENTS, FAIL_AGAIN, STOPPED = 0, 1, 2, 3, 130
 
 USAGE = """
   blender -b scene.blend --python-expr "import skinglow_blender as sb; sb.batch_main()" -- [OPTIONS]
@@ -27,8 +31,9 @@ USAGE = """
 EXAMPLES = """examples of OPTIONS:
   --frames 1-10,15 --rigs Sunset Neon --out //batch
   --frames 1-100x5 --rigs "day=Key,Fill" noon.json --onto Head
-exit code: 0 all pictures are complete; 1 some failed, the others are complete; 2 bad arguments, nothing rendered;
-130 stopped by Ctrl-C
+exit code: 0 all pictures are complete; 1 some failed for a reason that may pass (memory, disk, time-out): another try
+may help; 2 bad arguments, nothing rendered; 3 some would fail again, the others are complete; 130 stopped by Ctrl-C or
+SIGTERM
 Running the same command again renders only what is missing or out of date."""
 
 
@@ -65,11 +70,27 @@ def parser() -> argparse.ArgumentParser:
     add("--again", action="store_true", help="also render pictures that are up to date")
     add(
         "--worker",
-        default="",
         metavar="NAME",
-        help="write a separate manifest, manifest-NAME.jsonl, for this farm worker",
+        help="write a separate manifest, manifest-NAME.jsonl, for this farm worker (default: the name that Deadline "
+        'Cloud, Flamenco or Slurm gives it, if one does); "--worker=" for none',
     )
+    add(
+        "--timeout",
+        type=_seconds,
+        default=0.0,
+        metavar="SECONDS",
+        help="end with exit code 1 after a picture takes so long",
+    )
+    add("--progress", choices=MANAGERS, default="", help="also print lines that this farm manager parses")
+    add("--path-mapping", type=Path, metavar="FILE", help="rules of Open Job Description for paths of other machines")
     return found
+
+
+def _seconds(text: str) -> float:
+    seconds = float(text)
+    if not 0.0 <= seconds <= 1e6:
+        raise argparse.ArgumentTypeError(f"{text} is not allowed: seconds from 0 (no limit) to 1000000")
+    return seconds
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -78,51 +99,71 @@ def run(arguments: Sequence[str]) -> int:
         options = parser().parse_args(list(arguments))
     except SystemExit as end:  # argparse has printed the error or the help
         return end.code if isinstance(end.code, int) else BAD_ARGUMENTS
+    progress = Progress(options.progress, options.timeout)
     try:
-        with _stopping_after_a_picture() as progress:
-            _open(options.blend)
-            scene = _named(bpy.data.scenes, options.scene, "scene") or bpy.context.scene
-            out = options.out or (FOLDER if options.freeze else "//batch")
-            if out.startswith("//") and not bpy.data.filepath:
-                raise SkinError("--out: the scene was not saved, so // has no folder: give a folder")
-            if options.freeze:
-                _freeze(options, out, scene, progress)
-                return DONE
-            result = render_batch(
-                out,
-                options.frames,
-                options.rigs,
-                scene=scene,
-                pattern=options.pattern,
-                resume=not options.again,
-                onto=_named(scene.objects, options.onto, "object"),
-                worker=options.worker,
-                progress=progress,
-            )
+        with _stopping_after_a_picture(progress):
+            return _run(options, progress)
     except SkinError as error:
-        _say(f"skinglow: {error}")
-        return BAD_ARGUMENTS
+        say(f"skinglow: {error}")
+        progress.failed(str(error))
+        return TRY_AGAIN if isinstance(error, TemporaryError) else BAD_ARGUMENTS
     except KeyboardInterrupt:
-        _say("skinglow: stopped; run the same command to continue")
+        say("skinglow: stopped; run the same command to continue")
         return STOPPED
+    except Exception as error:  # noqa: BLE001  Blender would print it and end with exit code 0
+        traceback.print_exc()
+        progress.failed(f"Unexpected {type(error).__name__}: {error}")
+        return TRY_AGAIN
+    finally:
+        progress.end()
+
+
+def _run(options: argparse.Namespace, progress: Progress) -> int:
+    mapping = PathMapping(options.path_mapping)
+    _open(options.blend)
+    mapping.apply()
+    scene = _named(bpy.data.scenes, options.scene, "scene") or bpy.context.scene
+    out = options.out or (FOLDER if options.freeze else "//batch")
+    if out.startswith("//") and not bpy.data.filepath:
+        raise SkinError("--out: the scene was not saved, so // has no folder: give a folder")
+    if options.freeze:
+        _freeze(options, out, scene, progress)
+        return DONE
+    result = render_batch(
+        out,
+        options.frames,
+        [_on_this_machine(rig, mapping) for rig in options.rigs] if options.rigs else None,
+        scene=scene,
+        pattern=options.pattern,
+        resume=not options.again,
+        onto=_named(scene.objects, options.onto, "object"),
+        worker=worker_name() if options.worker is None else options.worker,
+        progress=progress,
+    )
     counts = f"{len(result.rendered)} rendered, {len(result.kept)} kept, {len(result.failed)} failed"
-    _say(f"skinglow: {counts}; {result.manifest}")
-    return SOME_FAILED if result.failed else DONE
+    say(f"skinglow: {counts}; {result.manifest}")
+    if not result.failed:
+        return DONE
+    progress.failed(why_failed(result))
+    return TRY_AGAIN if result.retry_helps else FAIL_AGAIN
 
 
-def _freeze(options: argparse.Namespace, out: str, scene: bpy.types.Scene, progress: "_Progress") -> None:
+def _on_this_machine(rig: str, mapping: PathMapping) -> str:
+    """A rig whose file, if it is one, is where this machine has it."""
+    name, equals, file = rig.rpartition("=")
+    return f"{name}{equals}{mapping.of(file)}"
+
+
+def _freeze(options: argparse.Namespace, out: str, scene: bpy.types.Scene, progress: Progress) -> None:
     """Freezes from the first to the last of the frames, and saves."""
     if options.rigs is not None:
         raise SkinError("--freeze: the lights are frozen as they are in the scene: leave out --rigs")
     frames = parse_frames(options.frames) if options.frames else (scene.frame_start, scene.frame_end)
-
-    def tell(done: float) -> None:
-        if progress.stopped:
-            raise KeyboardInterrupt
-        _say(f"frozen: {done:.0%}")
-
-    for each in freeze(None, min(frames), max(frames), out, scene=scene, progress=tell):
-        _say(f"skinglow: {', '.join(each.skins)}: frames {each.first} to {each.last} frozen to {each.folder}")
+    frozen = freeze(
+        None, min(frames), max(frames), out, scene=scene, progress=lambda done: progress.fraction(done, "frozen")
+    )
+    for each in frozen:
+        say(f"skinglow: {', '.join(each.skins)}: frames {each.first} to {each.last} frozen to {each.folder}")
     try:
         bpy.ops.wm.save_as_mainfile(filepath=str(options.freeze.absolute()))
     except RuntimeError as error:
@@ -161,52 +202,18 @@ def _named(
 
 
 @contextmanager
-def _stopping_after_a_picture() -> Iterator["_Progress"]:
-    """Ctrl-C ends the batch after the current picture. Blender itself would cancel it and go on with the next."""
-    progress = _Progress()
+def _stopping_after_a_picture(progress: Progress) -> Iterator[None]:
+    """Ctrl-C and SIGTERM end the batch after the current picture. Blender itself would cancel it and go on."""
     if threading.current_thread() is not threading.main_thread():
-        yield progress
+        yield
         return
-    before = signal.signal(signal.SIGINT, progress.stop)
+    before = {each: signal.signal(each, progress.stop) for each in (signal.SIGINT, signal.SIGTERM)}
     try:
-        yield progress
+        yield
     finally:
-        # None: the handler was not set from Python but by Blender; Python cannot restore that.
-        signal.signal(signal.SIGINT, signal.SIG_DFL if before is None else before)
-
-
-class _Progress:
-    """Prints a line to standard error for each picture."""
-
-    def __init__(self) -> None:
-        self.stopped = False
-
-    def stop(self, *_signal: object) -> None:
-        self.stopped = True
-
-    def __call__(self, step: BatchStep) -> None:
-        if step.state == "RENDERING":
-            if self.stopped:
-                raise KeyboardInterrupt
-            return
-        what = {
-            "KEPT": "kept",
-            "RENDERED": f"rendered in {step.seconds:.1f} s ({step.reason})",
-            "FAILED": f"FAILED: {step.reason}",
-        }[step.state]
-        left = "" if step.seconds_left is None else f"; {_clock(step.seconds_left)} left"
-        _say(f"[{step.done}/{step.total}] {step.rig}, frame {step.frame}: {what}{left}")
-        if self.stopped and step.done < step.total:
-            raise KeyboardInterrupt
-
-
-def _clock(seconds: float) -> str:
-    minutes, rest = divmod(int(seconds + 0.5), 60)
-    return f"{minutes // 60}:{minutes % 60:02d}:{rest:02d}"
-
-
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)
+        for each, handler in before.items():
+            # None: the handler was not set from Python but by Blender; Python cannot restore that.
+            signal.signal(each, signal.SIG_DFL if handler is None else handler)
 
 
 _command = None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Frame ranges as used by render farms: "1-10,15" or "1-100x5"."""
+"""Frame ranges as used by render farms: "1-10,15" or "1-100x5", and in Open Job Description "1-100:5"."""
 
 import re
 from collections.abc import Iterable
@@ -8,13 +8,13 @@ from ..errors import SkinError
 
 #: Blender's own limits of a frame number (MINAFRAME and MAXFRAME in its DNA_scene_types.h).
 FIRST, LAST = -1048574, 1048574
-_PART = re.compile(r"\s*(-?\d+)\s*(?:-\s*(-?\d+)\s*(?:x\s*(\d+)\s*)?)?")
+_PART = re.compile(r"\s*(-?\d+)\s*(?:-\s*(-?\d+)\s*(?:[x:]\s*(\d+)\s*)?)?")
 
 
 def parse_frames(frames: str | int | Iterable[int]) -> list[int]:
     """Frame numbers in the order given, each once.
 
-    frames  "1-10,15", "1-100x5" (every fifth), "-5--1"; one number; or any iterable of integers
+    frames  "1-10,15", "1-100x5" or "1-100:5" (every fifth), "-5--1"; one number; or any iterable of integers
     Raises SkinError naming the invalid part.
     """
     if isinstance(frames, str):

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Digests of the inputs of a picture, by which a batch detects that it is up to date."""
 
-import re
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,9 @@ from .. import blender_version
 from ..errors import core
 from ..read.scene_lights import read_light
 from ..skin_settings import SETTING_NAMES
-from .manifest import data_digest, file_digest
+from .digests import file_digests
+from .files import input_files
+from .manifest import data_digest
 from .rigs import ReadyRig, light_objects
 
 #: Settings that do not affect a picture, or that the batch itself sets.
@@ -20,8 +21,10 @@ NOT_IN_PICTURES = frozenset(
 )
 
 
-def scene_inputs(scene: bpy.types.Scene) -> dict[str, str]:
+def scene_inputs(scene: bpy.types.Scene, folder: Path | None = None) -> dict[str, str]:
     """Digests of the inputs of all pictures of a scene, which has to be at a fixed frame.
+
+    folder  where digests of files are kept for other workers; None: nowhere
 
     files     the blend file as saved, its libraries and every file that it reads
     render    settings of rendering, color management and output, and the camera
@@ -42,15 +45,18 @@ def scene_inputs(scene: bpy.types.Scene) -> dict[str, str]:
     ]
     programs = f"Blender {bpy.app.version_string}, skinglow {core().__version__}"
     return {
-        "files": data_digest(_files()),
+        # Names only: the machines of a farm may see a folder under different paths.
+        "files": data_digest(sorted((path.name, each) for path, each in file_digests(input_files(), folder).items())),
         "render": data_digest(render),
         "skins": data_digest(skins),
         "programs": programs,
     }
 
 
-def rig_inputs(scene: bpy.types.Scene, ready: ReadyRig, onto: tuple[float, float, float] | None) -> dict[str, str]:
-    """Digests of the additional inputs of one rig: its lights, its file and the target point."""
+def rig_inputs(
+    scene: bpy.types.Scene, ready: ReadyRig, onto: tuple[float, float, float] | None, folder: Path | None = None
+) -> dict[str, str]:
+    """Digests of the additional inputs of one rig: its lights, its file and the target point; folder: as above."""
     lights = [
         [
             read_light(obj, obj.matrix_world, obj.name, blender_version.output_target(scene)).signature,
@@ -62,56 +68,13 @@ def rig_inputs(scene: bpy.types.Scene, ready: ReadyRig, onto: tuple[float, float
         for obj in sorted(light_objects(scene), key=lambda obj: obj.name)
         if ready.shown is None or obj.name in ready.shown
     ]
-    file = file_digest(ready.rig.file) if ready.rig.file is not None else None
+    file = file_digests([ready.rig.file], folder)[ready.rig.file] if ready.rig.file is not None else None
     return {"rig": data_digest([ready.shown, lights, file, onto if file else None])}
 
 
 def skin_values(obj: bpy.types.Object) -> dict[str, Any]:
     """A skin's settings by name, as `make_skin` accepts them."""
     return {name: _plain(getattr(obj.skinglow, name)) for name in SETTING_NAMES}
-
-
-def _files() -> list[tuple[str, str]]:
-    """Name and digest of the blend file and of all files that it reads: libraries, images with their tiles and frames,
-    caches, volumes, fonts. Missing files are skipped.
-    """
-    paths = {bpy.data.filepath} if bpy.data.filepath else set()
-    paths.update(bpy.utils.blend_paths(absolute=True, packed=False, local=False))
-    for owner in (*bpy.data.images, *bpy.data.movieclips, *bpy.data.volumes, *bpy.data.cache_files):
-        if is_sequence(owner):
-            paths.update(_numbered(bpy.path.abspath(owner.filepath, library=owner.library)))
-    paths = {each for path in paths for each in (_tiles(path) if "<" in path else [path])}
-    # Names only: the machines of a farm may see a folder under different paths.
-    return sorted((path.name, _digest_if_readable(path)) for path in map(Path, paths) if path.is_file())
-
-
-def is_sequence(owner: bpy.types.ID) -> bool:
-    """Whether an image, movie clip, volume or cache reads one file per frame."""
-    return getattr(owner, "source", "") == "SEQUENCE" or getattr(owner, "is_sequence", False)
-
-
-def _numbered(path: str) -> list[str]:
-    """The files whose names differ from that one in its last number alone."""
-    folder, name = Path(path).parent, Path(path).name
-    found = re.search(r"\d+(?=\D*$)", name)
-    if found is None:
-        return [path]
-    pattern = re.compile(re.escape(name[: found.start()]) + r"\d+" + re.escape(name[found.end() :]))
-    return [str(each) for each in folder.glob("*") if pattern.fullmatch(each.name)]
-
-
-def _tiles(path: str) -> list[str]:
-    """The files of a tiled image, whose name has a token in place of the tile's number."""
-    folder, name = Path(path).parent, Path(path).name
-    pattern = re.compile(re.escape(name).replace("<UDIM>", r"\d{4}").replace("<UVTILE>", r"u\d+_v\d+"))
-    return [str(each) for each in folder.glob("*") if pattern.fullmatch(each.name)]
-
-
-def _digest_if_readable(path: Path) -> str:
-    try:
-        return file_digest(path)
-    except OSError:  # Blender cannot read it either
-        return ""
 
 
 def _render_settings(scene: bpy.types.Scene) -> list[Any]:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Renders the pictures of a batch, one after another, and restores the scene."""
 
+import errno
 import os
 import time
 from collections.abc import Callable, Iterable, Mapping
@@ -13,13 +14,13 @@ import bpy
 from ..commands.freezing import frozen_state
 from ..commands.health import require_health
 from ..commands.skin import skin_settings_of
-from ..errors import SkinError
+from ..errors import SkinError, TemporaryError
 from ..live.live_update import update_scene
 from ..read.scene_reading import read_skin
 from .frames import parse_frames
 from .inputs import rig_inputs, scene_inputs
 from .manifest import Manifest
-from .one_picture import make_picture
+from .one_picture import clear_leftovers, make_picture
 from .pictures import PATTERN, Picture, plan_pictures, why_not_kept
 from .rigs import ReadyRig, RigLike, as_rigs, lit_by, make_ready
 
@@ -45,7 +46,14 @@ class BatchResult(NamedTuple):
     kept: tuple[Path, ...]  #: existing, complete and up to date
     failed: tuple[tuple[Path, str], ...]  #: with the reason
     manifest: Path
+    retry_helps: bool = False  #: whether any of the failures may be gone at another try
 
+
+#: Errors of a folder that comes back, or gets space again.
+_TEMPORARY_NAMES = (
+    "EAGAIN EBUSY EDQUOT EHOSTDOWN EHOSTUNREACH EINTR EIO EMFILE ENFILE ENOLCK ENOSPC ESTALE ETIMEDOUT".split()
+)
+TEMPORARY = frozenset(getattr(errno, name) for name in _TEMPORARY_NAMES if hasattr(errno, name))
 
 Progress = Callable[[BatchStep], None]
 
@@ -74,6 +82,7 @@ def render_batch(
     onto      a skin to whose reference point a rig file's point is moved; None: lights are placed as in the file
     worker    name of a farm worker, which then writes its own manifest
     progress  called with a BatchStep; an exception in it ends the batch, and finished pictures are kept
+    Workers may render to one folder at once, and a batch may be run again after any end: what is complete is kept.
     Lights, rig files, frames, folder, names and the health of the skins are checked before anything is rendered
     (SkinError). A picture that fails does not stop the others. The scene is restored when this returns or raises.
     """
@@ -93,7 +102,8 @@ def render_batch(
         where.mkdir(parents=True, exist_ok=True)
         manifest.check_writable()
     except OSError as error:
-        raise SkinError(f"Cannot write to {where}: {error.strerror or error}") from error
+        kind = TemporaryError if error.errno in TEMPORARY else SkinError
+        raise kind(f"Cannot write to {where}: {error.strerror or error}") from error
     with ExitStack() as undo:
         _keep(undo, scene)
         return _Batch(scene, ready, manifest, onto, progress).run(pictures, resume)
@@ -151,61 +161,95 @@ class _Batch:
             skin_settings_of(onto)
             evaluated = onto.evaluated_get(scene.view_layers[0].depsgraph or bpy.context.evaluated_depsgraph_get())
             self.onto = read_skin(evaluated, evaluated.matrix_world).point
-        shared = scene_inputs(scene)
-        self.inputs = [{**shared, **rig_inputs(scene, rig, self.onto)} for rig in ready]
+        shared = scene_inputs(scene, self.folder)
+        self.inputs = [{**shared, **rig_inputs(scene, rig, self.onto, self.folder)} for rig in ready]
         self.rendered: list[Path] = []
         self.kept: list[Path] = []
         self.failed: list[tuple[Path, str]] = []
+        self.retry_helps = False
         self.seconds = 0.0
         self.total = 0
 
     def run(self, pictures: list[Picture], resume: bool) -> BatchResult:
         self.total = len(pictures)
+        folders = {(self.folder / picture.name).parent for picture in pictures}
+        clear_leftovers(folders)
         to_do: dict[int, list[tuple[Picture, str]]] = {}
-        entries: dict[str, list[dict[str, Any]]] = {}
-        for entry in self.manifest.entries() if resume else ():
-            entries.setdefault(str(entry.get("file")), []).append(entry)
+        entries = self.entries()
         for picture in pictures:
-            why = "requested again"
-            if resume:
-                inputs = self.inputs[picture.rig]
-                why = why_not_kept(self.folder, picture, entries.get(picture.name, []), inputs)
+            why = self.why_not_kept(picture, entries) if resume else "requested again"
             if why:
                 to_do.setdefault(picture.rig, []).append((picture, why))
             else:
-                self.kept.append(self.folder / picture.name)
-                self.report("KEPT", picture, "", 0.0)
+                self.keep(picture)
         for index, todo in to_do.items():
-            self.run_rig(self.ready[index], todo)
-        return BatchResult(tuple(self.rendered), tuple(self.kept), tuple(self.failed), self.manifest.path)
+            self.run_rig(self.ready[index], todo, resume)
+        clear_leftovers(folders)
+        rendered, kept, failed = tuple(self.rendered), tuple(self.kept), tuple(self.failed)
+        return BatchResult(rendered, kept, failed, self.manifest.path, self.retry_helps)
 
-    def run_rig(self, ready: ReadyRig, to_do: list[tuple[Picture, str]]) -> None:
+    def entries(self) -> dict[str, list[dict[str, Any]]]:
+        """The manifest's entries by file, as they are now."""
+        found: dict[str, list[dict[str, Any]]] = {}
+        for entry in self.manifest.entries():
+            found.setdefault(str(entry.get("file")), []).append(entry)
+        return found
+
+    def why_not_kept(self, picture: Picture, entries: dict[str, list[dict[str, Any]]]) -> str:
+        return why_not_kept(self.folder, picture, entries.get(picture.name, []), self.inputs[picture.rig])
+
+    def keep(self, picture: Picture) -> None:
+        self.kept.append(self.folder / picture.name)
+        self.report("KEPT", picture, "", 0.0)
+
+    def run_rig(self, ready: ReadyRig, to_do: list[tuple[Picture, str]], resume: bool) -> None:
         with ExitStack() as undo:
             notes: list[str] = []
-            fault = ""
+            fault: Exception | None = None
             try:
                 notes = undo.enter_context(lit_by(self.scene, ready, self.onto))
             except SkinError as error:
-                fault = str(error)
+                fault = error
             for picture, why in to_do:
-                self.report("RENDERING", picture, why, 0.0)
-                started = time.perf_counter()
-                path = self.folder / picture.name
-                state, reason = "RENDERED", why
-                try:
-                    if fault:
-                        raise SkinError(fault)
-                    name, inputs = picture.name, self.inputs[picture.rig]
-                    entry = make_picture(self.scene, picture.frame, path, ready)
-                    identity = {"file": name, "frame": picture.frame, "rig": picture.rig_name, "notes": notes}
-                    self.manifest.append({**identity, **entry, "inputs": inputs})
-                    self.rendered.append(path)
-                except (SkinError, ValueError, RuntimeError, OSError) as error:
-                    state, reason = "FAILED", " ".join(str(error).split())
-                    self.failed.append((path, reason))
-                seconds = time.perf_counter() - started
-                self.seconds += seconds
-                self.report(state, picture, reason, seconds)
+                # Another worker may have made it by now.
+                if resume and not self.why_not_kept(picture, self.entries()):
+                    self.keep(picture)
+                else:
+                    self.make(picture, why, ready, notes, fault, resume)
+
+    def make(
+        self, picture: Picture, why: str, ready: ReadyRig, notes: list[str], fault: Exception | None, resume: bool
+    ) -> None:
+        self.report("RENDERING", picture, why, 0.0)
+        started = time.perf_counter()
+        path = self.folder / picture.name
+
+        def publish(partial: Path, fields: dict[str, Any]) -> bool:
+            def take() -> bool:
+                if resume and not self.why_not_kept(picture, self.entries()):
+                    return False
+                os.replace(partial, path)
+                return True
+
+            identity = {"file": picture.name, "frame": picture.frame, "rig": picture.rig_name, "notes": notes}
+            return self.manifest.append({**identity, **fields, "inputs": self.inputs[picture.rig]}, take)
+
+        state, reason = "RENDERED", why
+        try:
+            if fault is not None:
+                raise fault
+            if not make_picture(self.scene, picture.frame, path, ready, publish):
+                self.keep(picture)
+                return
+            self.rendered.append(path)
+        except (SkinError, ValueError, RuntimeError, OSError, MemoryError) as error:
+            state, reason = "FAILED", " ".join(str(error).split()) or type(error).__name__
+            self.failed.append((path, reason))
+            if isinstance(error, TemporaryError) or not isinstance(error, SkinError | ValueError):
+                self.retry_helps = True
+        seconds = time.perf_counter() - started
+        self.seconds += seconds
+        self.report(state, picture, reason, seconds)
 
     def report(self, state: str, picture: Picture, reason: str, seconds: float) -> None:
         if self.progress is None:

@@ -270,7 +270,7 @@ def check_command(work):
     assert command.run(["--help"]) == 0
     assert not (work / "never").exists()
     bpy.data.collections["cold"].hide_render = True
-    assert command.run(["--out", str(folder), "--frames", "1", "--rigs", "x=cold lamp", "warm"]) == 1
+    assert command.run(["--out", str(folder), "--frames", "1", "--rigs", "x=cold lamp", "warm"]) == 3
 
 
 def check_command_is_registered_where_blender_has_commands(work):
