@@ -92,10 +92,16 @@ py::array exitance_error_array(const Shape& self, py::handle irradiance, const p
 
 LitShape lit_by_arrays(const Shape& self, py::handle lights, const std::optional<Environment>& environment,
                        const std::optional<Occluders>& occluders, std::vector<std::size_t> excluded,
-                       int reentries, int shadow_samples, const py::object& progress) {
+                       int reentries, int shadow_samples, double solver_tolerance,
+                       const std::optional<LitShape>& previous, const py::object& progress) {
     const PreparedRig rig = numpy::to_rig(lights);
-    const ShapeLightOptions options{environment ? &*environment : nullptr, occluders ? &*occluders : nullptr,
-                                    std::move(excluded), reentries, shadow_samples};
+    const ShapeLightOptions options{environment ? &*environment : nullptr,
+                                    occluders ? &*occluders : nullptr,
+                                    std::move(excluded),
+                                    reentries,
+                                    shadow_samples,
+                                    solver_tolerance,
+                                    previous ? &*previous : nullptr};
     return numpy::without_gil([&] { return self.light(rig, options, ask_python(progress)); });
 }
 
@@ -172,7 +178,8 @@ void bind_shape(py::module_& m) {
         .def("exitance_error", &exitance_error_array, "irradiance"_a, "progress"_a,
              "See skinglow.Shape.exitance_error.")
         .def("light", &lit_by_arrays, "lights"_a, "environment"_a, "occluders"_a, "excluded"_a, "reentries"_a,
-             "shadow_samples"_a, "progress"_a, "See skinglow.Shape.light.")
+             "shadow_samples"_a, "solver_tolerance"_a, "previous"_a, "progress"_a,
+             "See skinglow.Shape.light.")
         .def("with_tissue", &in_tissue<Shape>, "tissue"_a, "See skinglow.Shape.with_tissue.");
 }
 

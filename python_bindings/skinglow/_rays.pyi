@@ -80,6 +80,8 @@ class Shape:
         excluded: Sequence[int],
         reentries: int,
         shadow_samples: int,
+        solver_tolerance: float,
+        previous: LitShape | None,
         progress: Callable[[float], bool] | None,
     ) -> LitShape: ...
     def exitance_error(

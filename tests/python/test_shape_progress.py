@@ -18,7 +18,7 @@ IRRADIANCE = np.arange(float(len(BODY[0])))
 CALLS = {
     "exitance": lambda shape, progress: shape.exitance(IRRADIANCE, progress=progress),
     "light": lambda shape, progress: shape.light(LIGHTS, progress=progress).exitance,
-    "recolor": lambda shape, progress: shape.light([*LIGHTS, *LIGHTS]).recolor(np.eye(4)[:, :3], progress=progress),
+    "recolor": lambda shape, progress: shape.light(3 * LIGHTS).recolor(np.eye(6)[:, :3], progress=progress),
 }
 
 

@@ -36,10 +36,14 @@ struct PointLight {
     double radius = 0.0;       ///< of the glowing ball, scene unit, 0 or more
     bool soft_falloff = true;  ///< true: a disk that always faces the lit point (Blender's default, and all
                                ///< there was before 4.1); false: a ball
+
+    bool operator==(const PointLight&) const = default;
 };
 
 struct SunLight {
     double sun_angle = 0.0;  ///< full angular diameter, radians, 0 to pi
+
+    bool operator==(const SunLight&) const = default;
 };
 
 struct SpotLight {
@@ -49,6 +53,8 @@ struct SpotLight {
     double spot_blend = 0.15;                  ///< fraction of the cone that fades, 0 (hard edge) to 1
     bool spot_cosine =
         false;  ///< also times the cosine to its axis, as Blender 3.4 has it, 4.5 and later not
+
+    bool operator==(const SpotLight&) const = default;
 };
 
 struct AreaLight {
@@ -58,6 +64,8 @@ struct AreaLight {
     glm::dvec3 tangent{1.0, 0.0, 0.0};  ///< world direction of size_x, made perpendicular to the light's
                                         ///< direction; parallel to it, or 0: any perpendicular
     double spread = std::numbers::pi;   ///< full angle it shines into, radians, 0 (no light) to pi (Lambert)
+
+    bool operator==(const AreaLight&) const = default;
 };
 
 /// What one kind of light has and others have not.

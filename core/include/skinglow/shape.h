@@ -92,12 +92,21 @@ struct ShapePart {
     double lost_area_fraction = 0;  ///< of its surface, where the flesh is too thin for a cell
 };
 
+class LitShape;
+
 struct ShapeLightOptions {
     const Environment* environment = nullptr;  ///< none: black
     const Occluders* occluders = nullptr;      ///< other objects, in the frame of the vertices; none: nothing
     std::vector<std::size_t> excluded = {};    ///< meshes of the occluders that do not count: the body's own
     int reentries = 2;                         ///< how often light that leaves skin enters skin again, 0 to 8
     int shadow_samples = 16;                   ///< rays to a light that has an extent, 1 to 4096
+    /// Where the solver stops, of what it began with, 1e-6 to 0.5. 1e-4 leaves 1 % where a thousandth of the light
+    /// comes through; 1e-2 is for light that is being moved.
+    double solver_tolerance = 1e-4;
+    /// The same shape under earlier lights; none: all is solved. Lights that shine as they did, but for color and
+    /// power, are taken from there, as they are found amid the same occluders and are solved at least as well: what
+    /// changed costs, and the rest nothing. Without use where it is of another shape.
+    const LitShape* previous = nullptr;
 };
 
 /// A body under lights. Copies share what was solved; may be asked from many threads at once.

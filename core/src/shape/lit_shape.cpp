@@ -13,6 +13,8 @@ namespace {
 
 constexpr int max_reentries = 8;
 constexpr int max_samples = 4096;
+constexpr double min_tolerance = 1e-6;
+constexpr double max_tolerance = 0.5;
 
 ShapeData::Colors recolored(const LitShapeData& lit, std::span<const glm::dvec3> colors,
                             const ShapeProgress& progress) {
@@ -23,7 +25,7 @@ ShapeData::Colors recolored(const LitShapeData& lit, std::span<const glm::dvec3>
     }
     for (std::size_t k = 0; k < colors.size(); ++k) require_not_negative(entry_name("colors", k), colors[k]);
     // What is at hand is faster than starting a job.
-    if (lit.matrices.ready() == nullptr) run_or_cancel(progress, [&] { lit.by_light(); });
+    if (!lit.is_each_solved()) run_or_cancel(progress, [&] { lit.solve_each(); });
     return lit.sum(colors);
 }
 
@@ -35,10 +37,15 @@ LitShape Shape::light(const PreparedRig& rig, const ShapeLightOptions& options,
         refuse_argument("reentries", std::to_string(options.reentries), "0 to 8");
     if (options.shadow_samples < 1 || options.shadow_samples > max_samples)
         refuse_argument("shadow_samples", std::to_string(options.shadow_samples), "1 to 4096");
+    if (!(options.solver_tolerance >= min_tolerance && options.solver_tolerance <= max_tolerance))
+        refuse_argument("solver_tolerance", to_text(options.solver_tolerance), "1e-6 to 0.5");
+    const detail::LitShapeData* const previous =
+        options.previous != nullptr ? options.previous->data_.get() : nullptr;
     LitShape result;
     run_or_cancel(progress, [&] {
-        const auto solved = std::make_shared<const SolvedLight>(data_, rig, options);
-        result.data_ = std::make_shared<const LitShapeData>(solved, data_);
+        const auto solved = std::make_shared<const SolvedLight>(
+            LightScene(data_, rig, options), previous != nullptr ? previous->solved.get() : nullptr);
+        result.data_ = std::make_shared<const LitShapeData>(solved, data_, previous);
     });
     return result;
 }
@@ -66,14 +73,16 @@ std::vector<glm::dvec3> LitShape::per_light(const ShapeProgress& progress) const
     const std::size_t points = data_->shape->points.size();
     std::vector<glm::dvec3> result(lights() * points, glm::dvec3(0.0));
     run_or_cancel(progress, [&] {
-        const LightMatrices& all = data_->by_light();
+        data_->solve_each();
         const auto& site_of = data_->shape->solver->sites().site_of();
         for (std::size_t k = 0; k < lights(); ++k) {
-            const std::vector<glm::mat3>& matrices = all.lights[k].exitance;
-            if (matrices.empty()) continue;
-            const glm::vec3 color = data_->solved->rig.data().prepared[k].color;
-            for (std::size_t i = 0; i < points; ++i)
-                result[k * points + i] = glm::max(matrices[site_of[i]] * color, glm::vec3(0.0F));
+            const ShapeData::Matrices* of_light = data_->solved->may_shine(k) ? data_->matrices(k) : nullptr;
+            if (of_light == nullptr) continue;
+            const glm::dvec3 color = data_->solved->strength(k, data_->solved->rig.data().prepared[k].color);
+            for (std::size_t i = 0; i < points; ++i) {
+                result[k * points + i] =
+                    glm::max(glm::dmat3(of_light->exitance[site_of[i]]) * color, glm::dvec3(0.0));
+            }
         }
     });
     return result;
@@ -96,7 +105,7 @@ LitShape LitShape::with_tissue(const Tissue& tissue) const {
         refuse_argument("tissue", "given", "none: this shape is of coefficients, not of a tissue");
     LitShape result;
     result.data_ = std::make_shared<const LitShapeData>(
-        data_->solved, std::make_shared<const ShapeData>(*data_->solved->shape, tissue));
+        data_->solved, std::make_shared<const ShapeData>(*data_->solved->shape, tissue), nullptr);
     return result;
 }
 

@@ -1,43 +1,17 @@
 #pragma once
 
-#include <optional>
-
-#include "shape/shape_data.h"
-#include "shape/vertex_light.h"
+#include "shape/solved_light.h"
 
 namespace skinglow::detail {
 
-/// Light of each light by itself, of white color, at the nodes, and of the world.
-struct NodeLights {
-    std::vector<SiteLight> lights;  ///< without sites: gives nothing
-    std::vector<SiteLight> world;   ///< as ShapeData::solve; empty without one
+/// Colors that a tissue makes of what is solved of a light, and of the world.
+struct LightColors {
+    std::shared_ptr<const WhiteLight> light;
+    Lazy<ShapeData::Matrices> matrices;  ///< empty where it gives nothing
 };
-
-/// What was asked for and what was solved, at the nodes: the same for all tissues.
-struct SolvedLight {
-    std::shared_ptr<const ShapeData> shape;
-    PreparedRig rig;
-    ShapeLightOptions options;  ///< without environment and occluders
-    std::optional<Environment> environment;
-    std::optional<Occluders> occluders;
-    std::vector<std::size_t> left_out;
-    std::vector<glm::dvec3> irradiance;
-    std::vector<std::uint8_t> wanted;
-    std::vector<SiteLight> together;  ///< as ShapeData::solve; empty: few lights, each by itself
-    Lazy<NodeLights> by_light;
-
-    SolvedLight(std::shared_ptr<const ShapeData> of, PreparedRig lights, const ShapeLightOptions& given);
-    const NodeLights& each() const;
-
-  private:
-    VertexLight vertex_light() const;
-    void sum_irradiance(const VertexLight& light);
-};
-
-/// Matrices of each light, and the color of the world.
-struct LightMatrices {
-    std::vector<ShapeData::Matrices> lights;  ///< empty for one that gives nothing
-    ShapeData::Colors world;                  ///< empty without one
+struct WorldColors {
+    std::shared_ptr<const WorldLight> world;
+    Lazy<ShapeData::Colors> colors;
 };
 
 /// What a lit shape holds: what was solved, and the colors that a tissue makes of it.
@@ -46,15 +20,27 @@ struct LitShapeData {
     std::shared_ptr<const ShapeData> shape;
     std::vector<glm::dvec3> exitance;
     std::vector<glm::dvec3> transmitted;
-    Lazy<LightMatrices> matrices;
 
-    LitShapeData(std::shared_ptr<const SolvedLight> light, std::shared_ptr<const ShapeData> colors);
-    const LightMatrices& by_light() const;
+    /// @param previous  null: none
+    LitShapeData(std::shared_ptr<const SolvedLight> light, std::shared_ptr<const ShapeData> colors,
+                 const LitShapeData* previous);
 
-    /// Sum over the lights at the sites, of lights of these colors, and the world.
+    /// Makes the matrices of each light that may shine, and the colors of the world.
+    void solve_each() const;
+    bool is_each_solved() const;
+
+    /// Exitance of white light; none: gives nothing, or is not solved.
+    const ShapeData::Matrices* matrices(std::size_t light) const;
+
+    /// Sum over the lights at the sites, of lights of these colors, and the world. Of those that are not black,
+    /// what is solved.
     ShapeData::Colors sum(std::span<const glm::dvec3> colors) const;
     /// Estimated, one per site.
     std::vector<glm::dvec3> error() const;
+
+  private:
+    std::vector<std::shared_ptr<const LightColors>> lights_;
+    std::shared_ptr<const WorldColors> world_;  ///< null: black
 };
 
 /// Puts what came through, the exitance less what is reflected, at least 0, into the place of what is reflected.

@@ -196,7 +196,7 @@ std::vector<glm::dvec3> Shape::exitance(std::span<const glm::dvec3> irradiance,
                                         const ShapeProgress& progress) const {
     require_irradiance(irradiance, vertices());
     std::vector<glm::dvec3> of_sites;
-    run_or_cancel(progress, [&] { of_sites = data_->colors(data_->solve(irradiance, 0)).exitance; });
+    run_or_cancel(progress, [&] { of_sites = data_->colors(data_->solve(irradiance, {})).exitance; });
     return data_->at_points(of_sites);
 }
 
@@ -205,7 +205,7 @@ std::vector<glm::dvec3> Shape::exitance_error(std::span<const glm::dvec3> irradi
     require_irradiance(irradiance, vertices());
     std::vector<glm::dvec3> of_sites;
     run_or_cancel(progress, [&] {
-        const std::vector<SiteLight> solved = data_->solve(irradiance, 0);
+        const std::vector<SiteLight> solved = data_->solve(irradiance, {});
         std::vector<ColoredLight> lights;
         add_colored(solved, lights);
         of_sites = estimated_error(*data_, lights, irradiance);

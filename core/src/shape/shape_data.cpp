@@ -10,8 +10,6 @@
 namespace skinglow::detail {
 namespace {
 
-/// Of the residual, in the preconditioner's norm: leaves 1 % where a thousandth comes through.
-constexpr double tolerance = 1e-4;
 /// Over what a half-space sends back: the grid's errors on lit skin are below.
 constexpr float largest_sent_back = 1.1F;
 /// Flesh that light comes through at lit points.
@@ -108,7 +106,7 @@ std::vector<glm::dvec3> ShapeData::at_points(const std::vector<glm::dvec3>& of_s
 }
 
 /// Solved with the brightest light 1, so that squares in single precision neither overflow nor vanish.
-SiteLight ShapeData::solve_nodes(std::span<Lanes> light, int reentries) const {
+SiteLight ShapeData::solve_nodes(std::span<Lanes> light, const SolveQuality& quality) const {
     float brightest = 0;
     for (const Lanes& e : light) {
         for (const float x : e.v) brightest = std::max(brightest, std::abs(x));
@@ -116,38 +114,60 @@ SiteLight ShapeData::solve_nodes(std::span<Lanes> light, int reentries) const {
     // Divided, as a small number's inverse may overflow.
     const float scale = brightest > 0 ? brightest : 1.0F;
     for (Lanes& e : light) e = each_lane([&](std::size_t k) { return e[k] / scale; });
-    SiteLight result = solver->solve(light, tolerance, reentries, on_the_way());
+    SiteLight result = solver->solve(light, quality.tolerance, quality.reentries, on_the_way());
     for (Lanes& e : result.exitance) e = e * scale;
     for (Lanes& e : result.reflected) e = e * scale;
     return result;
 }
 
-std::vector<SiteLight> ShapeData::solve(std::span<const glm::dvec3> irradiance, int reentries) const {
+std::vector<SiteLight> ShapeData::solve(std::span<const glm::dvec3> irradiance,
+                                        const SolveQuality& quality) const {
     std::vector<Lanes> light(irradiance.size());
     std::vector<SiteLight> result;
     if (!spectrum) {
-        expect_work(solver->solve_work(reentries));
+        expect_work(solver->solve_work(quality.reentries));
         std::transform(irradiance.begin(), irradiance.end(), light.begin(), each_channel);
-        result.push_back(solve_nodes(light, reentries));
+        result.push_back(solve_nodes(light, quality));
         return result;
     }
     // Light of each channel goes through the flesh by itself; gray light once.
     const bool is_gray = std::all_of(irradiance.begin(), irradiance.end(),
                                      [](const glm::dvec3& e) { return e.r == e.g && e.g == e.b; });
     const int channels = is_gray ? 1 : 3;
-    expect_work(channels * solver->solve_work(reentries));
+    expect_work(channels * solver->solve_work(quality.reentries));
     for (int c = 0; c < channels; ++c) {
         for (std::size_t i = 0; i < light.size(); ++i)
             light[i] = Lanes::all(static_cast<float>(irradiance[i][c]));
-        result.push_back(solve_nodes(light, reentries));
+        result.push_back(solve_nodes(light, quality));
     }
     return result;
 }
 
-SiteLight ShapeData::solve_white(std::span<const float> irradiance, int reentries) const {
+SiteLight ShapeData::solve_white(std::span<const float> irradiance, const SolveQuality& quality) const {
     std::vector<Lanes> light(irradiance.size());
     std::transform(irradiance.begin(), irradiance.end(), light.begin(), Lanes::all);
-    return solve_nodes(light, reentries);
+    return solve_nodes(light, quality);
+}
+
+std::vector<SiteLight> ShapeData::sum(std::span<const ColoredLight> lights) const {
+    const std::size_t sites = solver->sites().sites().size();
+    const bool is_gray = std::all_of(lights.begin(), lights.end(), [](const ColoredLight& one) {
+        return one.color.r == one.color.g && one.color.g == one.color.b;
+    });
+    std::vector<SiteLight> result(spectrum && !is_gray ? 3 : 1);
+    for (std::size_t c = 0; c < result.size(); ++c) {
+        result[c] = {std::vector<Lanes>(sites), std::vector<Lanes>(sites)};
+        for (const ColoredLight& one : lights) {
+            if (one.light->exitance.empty()) continue;
+            const Lanes color = spectrum ? Lanes::all(static_cast<float>(one.color[static_cast<int>(c)]))
+                                         : each_channel(one.color);
+            for (std::size_t s = 0; s < sites; ++s) {
+                result[c].exitance[s] += color * one.light->exitance[s];
+                result[c].reflected[s] += color * one.light->reflected[s];
+            }
+        }
+    }
+    return result;
 }
 
 ShapeData::Colors ShapeData::colors(std::span<const SiteLight> solved) const {

@@ -13,6 +13,26 @@
 
 namespace skinglow::detail {
 
+/// How well light is solved.
+struct SolveQuality {
+    int reentries = 0;  ///< how often light that leaves skin enters skin again
+    /// Of the residual over the light's, in the preconditioner's norm; 1e-4 leaves 1 % where a thousandth comes
+    /// through.
+    double tolerance = ShapeLightOptions{}.solver_tolerance;
+
+    bool operator==(const SolveQuality&) const = default;
+    /// Whether light that is solved this well will do for another.
+    bool serves(const SolveQuality& wanted) const {
+        return reentries >= wanted.reentries && tolerance <= wanted.tolerance;
+    }
+};
+
+/// Light that was solved, and the color that it is of.
+struct ColoredLight {
+    const SiteLight* light;
+    glm::dvec3 color;
+};
+
 /// What a shape holds: the solver by nodes, and how nodes make colors. Light is solved at the nodes and
 /// stays there as SiteLight, so that another tissue can make other colors of it.
 struct ShapeData {
@@ -24,16 +44,19 @@ struct ShapeData {
     /// The light of three channels at the nodes. One of a medium of three channels, whose lanes they are, and
     /// of gray light; else one per channel.
     /// @param irradiance  one per vertex
-    std::vector<SiteLight> solve(std::span<const glm::dvec3> irradiance, int reentries) const;
+    std::vector<SiteLight> solve(std::span<const glm::dvec3> irradiance, const SolveQuality& quality) const;
     /// The same of white light.
-    SiteLight solve_white(std::span<const float> irradiance, int reentries) const;
+    SiteLight solve_white(std::span<const float> irradiance, const SolveQuality& quality) const;
+
+    /// The sum of some lights at the nodes, as solve() gives it: what solving them at once is.
+    std::vector<SiteLight> sum(std::span<const ColoredLight> lights) const;
 
     /// Exitance of the sites, and what of it a half-space has.
     struct Colors {
         std::vector<glm::dvec3> exitance;
         std::vector<glm::dvec3> reflected;
     };
-    /// @param solved  of solve()
+    /// @param solved  of solve() or sum()
     Colors colors(std::span<const SiteLight> solved) const;
 
     /// For white light the matrix of each site, and that of what a half-space has of it.
@@ -70,7 +93,7 @@ struct ShapeData {
   private:
     glm::dmat3 combine(const Lanes& exitance) const;
     void set_thick();
-    SiteLight solve_nodes(std::span<Lanes> light, int reentries) const;
+    SiteLight solve_nodes(std::span<Lanes> light, const SolveQuality& quality) const;
 
     std::vector<glm::dmat3> thick_;  ///< as SpectralNodes::thick, of the surface of the body
     glm::dmat3 all_thick_{0.0};

@@ -19,12 +19,6 @@ double back_lit_error(const LaneMedium& medium, double cell);
 /// @throws std::invalid_argument naming the least tolerance that the smallest cells keep
 double cell_for(const LaneMedium& medium, double tolerance, double min_cell, double max_cell);
 
-/// Light that was solved, and the color that it is of.
-struct ColoredLight {
-    const SiteLight* light;
-    glm::dvec3 color;
-};
-
 /// Of ShapeData::solve's, each with its color.
 void add_colored(std::span<const SiteLight> solved, std::vector<ColoredLight>& lights);
 

@@ -71,10 +71,10 @@ bool VertexLight::sees(const Receiver& receiver, const glm::dvec3& direction, do
            !options_.occluders->scene().occluded(receiver.point, direction, distance, excluded_);
 }
 
-double VertexLight::fraction(const RigLight& light, const Receiver& receiver, std::uint32_t vertex,
+double VertexLight::fraction(const PreparedLight& light, const Receiver& receiver, std::uint32_t vertex,
                              int samples) const {
     return visible_fraction_at(
-        light.light, receiver.point, receiver.normal, vertex, samples,
+        light, receiver.point, receiver.normal, vertex, samples,
         [&](const LightSample& ray) { return sees(receiver, ray.direction, ray.distance); });
 }
 
@@ -95,19 +95,17 @@ std::vector<std::uint8_t> VertexLight::doubtful(std::span<const float> fraction)
     return result;
 }
 
-std::vector<float> VertexLight::of_light(const RigLight& light) const {
+WhiteIrradiance VertexLight::of_light(const PreparedLight& light) const {
     std::vector<float> seen(vertices_.size(), no_light);
-    std::vector<float> irradiance(vertices_.size(), 0.0F);
-    if (!light.shines) return irradiance;
+    std::vector<double> open(wanted_.size(), 0.0);
     const auto first = [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const std::uint32_t v = wanted_[i];
             const Receiver& receiver = receivers_[i];
             if (receiver.normal == glm::dvec3(0.0)) continue;
-            const double open = light.light.irradiance(receiver.point, receiver.normal, area_tolerance);
-            if (!(open > 0)) continue;
-            irradiance[v] = static_cast<float>(open * light.power);
-            const int samples = is_narrow(light.light, receiver.point) ? 1 : first_samples;
+            open[i] = light.irradiance(receiver.point, receiver.normal, area_tolerance);
+            if (!(open[i] > 0)) continue;
+            const std::uint32_t v = wanted_[i];
+            const int samples = is_narrow(light, receiver.point) ? 1 : first_samples;
             seen[v] = static_cast<float>(fraction(light, receiver, v, std::min(samples, options_.samples)));
         }
     };
@@ -116,14 +114,20 @@ std::vector<float> VertexLight::of_light(const RigLight& light) const {
     const auto second = [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t v = wanted_[i];
-            if (seen[v] == no_light) continue;
-            if (again[v] != 0)
-                seen[v] = static_cast<float>(fraction(light, receivers_[i], v, options_.samples));
-            irradiance[v] *= seen[v];
+            if (seen[v] == no_light || again[v] == 0) continue;
+            seen[v] = static_cast<float>(fraction(light, receivers_[i], v, options_.samples));
         }
     };
     for_each_block(wanted_.size(), options_.threads, second, {}, block);
-    return irradiance;
+    WhiteIrradiance result{std::vector<float>(vertices_.size(), 0.0F)};
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        open[i] = seen[wanted_[i]] == no_light ? 0.0 : open[i] * static_cast<double>(seen[wanted_[i]]);
+        result.brightest = std::max(result.brightest, open[i]);
+    }
+    if (!(result.brightest > 0)) return result;
+    for (std::size_t i = 0; i < open.size(); ++i)
+        result.relative[wanted_[i]] = static_cast<float>(open[i] / result.brightest);
+    return result;
 }
 
 std::vector<glm::vec3> VertexLight::of_environment(const Environment& environment) const {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "rig/rig_data.h"
+#include "radiometry/prepared_light.h"
 #include "shape/flesh_surface.h"
 #include "shape/surface_sites.h"
 
@@ -22,6 +22,12 @@ struct ShadowOptions {
     int threads = 0;
 };
 
+/// Irradiance at vertices, of any size.
+struct WhiteIrradiance {
+    std::vector<float> relative;  ///< one per vertex, 0 to 1
+    double brightest = 0;         ///< W/m^2, what 1 is
+};
+
 /// Irradiance at the vertices of a body, with the shadows of the body itself and of what stands around it.
 class VertexLight {
   public:
@@ -31,9 +37,9 @@ class VertexLight {
     VertexLight(const FleshSurface& surface, std::span<const glm::dvec3> vertices, const SurfaceSites& sites,
                 double unit_mm, std::span<const std::uint8_t> wanted, const ShadowOptions& options);
 
-    /// Of one light whose color is white, W/m^2; 0 at vertices that are not wanted. First a few rays go to
-    /// each vertex; where they or those of a neighbor disagree, all of them.
-    std::vector<float> of_light(const RigLight& light) const;
+    /// Of one light whose color is white and whose power is 1, W/m^2; 0 at vertices that are not wanted. First a
+    /// few rays go to each vertex; where they or those of a neighbor disagree, all of them.
+    WhiteIrradiance of_light(const PreparedLight& light) const;
 
     /// Of the world: by rays that follow the cosine, with the radiance of the nine harmonics along those that
     /// nothing stops.
@@ -47,7 +53,8 @@ class VertexLight {
     };
     Receiver receiver_of(std::uint32_t vertex) const;
     bool sees(const Receiver& receiver, const glm::dvec3& direction, double distance) const;
-    double fraction(const RigLight& light, const Receiver& receiver, std::uint32_t vertex, int samples) const;
+    double fraction(const PreparedLight& light, const Receiver& receiver, std::uint32_t vertex,
+                    int samples) const;
     std::vector<std::uint8_t> doubtful(std::span<const float> fraction) const;
 
     const FleshSurface& surface_;
