@@ -119,7 +119,7 @@ def state_of(key: str, mode: str) -> ShapeState | None:
 
 def is_synchronous(mode: str) -> bool:
     """Whether an update waits for the full answer."""
-    return bpy.app.background or mode == "RENDER" or SESSION.rendering
+    return bpy.app.background or mode == "RENDER"
 
 
 def prepare(obj: bpy.types.Object, skin: Skin, depsgraph: bpy.types.Depsgraph) -> ShapeState:
