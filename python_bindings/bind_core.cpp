@@ -3,7 +3,9 @@
 #include <skinglow/light_weights.h>
 #include <skinglow/lut.h>
 
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "numerics/argument_check.h"
@@ -131,6 +133,24 @@ scale * thickness_mm + offset. Clamp the image at its ends ("extend").)")
 
 Mode `paper` (Eq. 1): a gray base and weight = B + L. Mode `physical`: weight = E on the far side, W/m^2.
 weight  (3,), finite. Raises ValueError on bad input or where a product is beyond the largest double.)");
+    m.def(
+        "table_at",
+        [](py::handle colors, const std::pair<double, double>& texel_mapping, py::handle thickness_mm) {
+            const std::vector<glm::dvec3> table = numpy::to_vec3s(colors, "colors");
+            const numpy::Array thickness = numpy::to_array(thickness_mm, "thickness_mm");
+            if (thickness.ndim() != 1) {
+                refuse_argument("thickness_mm", "of shape " + numpy::shape_text(thickness), "shape (k,)");
+            }
+            const std::span<const double> at(thickness.data(), static_cast<std::size_t>(thickness.size()));
+            return numpy::from_vec3s(numpy::without_gil(
+                [&] { return table_at(table, texel_mapping.first, texel_mapping.second, at); }));
+        },
+        "colors"_a, "texel_mapping"_a, "thickness_mm"_a,
+        R"(What an image of a table shows at a thickness, (k, 3): linear between texel centers, its ends continued.
+
+colors         (size, 3), as recolor gives them, finite
+texel_mapping  (scale, offset), as BaseLut.texel_mapping
+thickness_mm   (k,), finite. Raises ValueError naming the entry.)");
     m.def(
         "six_gaussian_lookup",
         [](std::size_t size, double max_thickness_mm) {

@@ -8,6 +8,7 @@ void bind_irradiance(pybind11::module_& m);
 void bind_rig(pybind11::module_& m);
 void bind_povray(pybind11::module_& m);
 void bind_surface_lighting(pybind11::module_& m);
+void bind_face_tiles(pybind11::module_& m);
 
 PYBIND11_MODULE(_core, m) {
     m.doc() = "Light weights, lookup tables, recoloring and skin optics. mm, W, nm, radians, linear Rec.709.";
@@ -21,4 +22,5 @@ PYBIND11_MODULE(_core, m) {
     bind_rig(m);
     bind_surface_lighting(m);
     bind_povray(m);
+    bind_face_tiles(m);
 }

@@ -15,6 +15,7 @@ from skinglow._core import (
     AngularWeight,
     BaseLut,
     Environment,
+    FaceTiles,
     Layer,
     Light,
     LightRig,
@@ -23,6 +24,7 @@ from skinglow._core import (
     SlabResult,
     SurfaceLighting,
     ThicknessCurve,
+    TileTargets,
     Tissue,
     __version__,
     attenuation,
@@ -56,6 +58,7 @@ from skinglow._core import (
     slab,
     spectral_color,
     surface_irradiance,
+    table_at,
     tabulated_spectrum,
     transmission_matrix,
     transmittance,
@@ -95,6 +98,7 @@ __all__ = [
     "BaseLut",
     "PAPER_BLOOD_WEIGHT",
     "recolor",
+    "table_at",
     "six_gaussian_base",
     "six_gaussian_lookup",
     # Slabs of turbid media
@@ -148,6 +152,9 @@ __all__ = [
     "read_light_rig",
     # The light at each point of a surface, for materials
     "SurfaceLighting",
+    # Values on a surface as texels of an image
+    "FaceTiles",
+    "TileTargets",
     # For hosts
     "diffuse_radiance",
     "light_rotation",

@@ -12,6 +12,7 @@ PUBLIC = {
     "angular_weight.h": "radiometry",
     "box.h": "geometry",
     "environment.h": "radiometry",
+    "face_tiles.h": "tiles",
     "light.h": "light",
     "light_weights.h": "light",
     "lut.h": "skin",

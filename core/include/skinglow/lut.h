@@ -171,4 +171,13 @@ std::vector<glm::dvec3> recolor(const BaseLut& base, const glm::dvec3& weight);
 /// @param out exactly as many entries as the base
 void recolor(const BaseLut& base, const glm::dvec3& weight, std::span<glm::dvec3> out);
 
+/// What an image of a table shows at a thickness: linear between the centers of texels, its ends continued.
+/// Throws std::invalid_argument that names the entry.
+/// @param colors         of the table, one or more, finite
+/// @param texel_scale    of the table's axis, finite
+/// @param texel_offset   of the table's axis, finite
+/// @param thickness_mm   finite
+std::vector<glm::dvec3> table_at(std::span<const glm::dvec3> colors, double texel_scale, double texel_offset,
+                                 std::span<const double> thickness_mm);
+
 }  // namespace skinglow

@@ -1,8 +1,10 @@
 #include <skinglow/lut.h>
 #include <skinglow/spectrum.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <string>
 #include <utility>
 
@@ -105,6 +107,24 @@ void recolor(const BaseLut& base, const glm::dvec3& weight, std::span<glm::dvec3
     if (overflow != glm::dvec3(0.0)) {
         refuse_argument("weight", to_text(weight), "one whose product with the base lookup stays finite");
     }
+}
+
+std::vector<glm::dvec3> table_at(std::span<const glm::dvec3> colors, double texel_scale, double texel_offset,
+                                 std::span<const double> thickness_mm) {
+    require("number of colors", colors.size(), !colors.empty(), "1 or more");
+    for (std::size_t i = 0; i < colors.size(); ++i) require_finite(entry_name("colors", i), colors[i]);
+    require_finite("texel scale", texel_scale);
+    require_finite("texel offset", texel_offset);
+    std::vector<glm::dvec3> result(thickness_mm.size());
+    const auto size = static_cast<double>(colors.size());
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const double thickness = require_finite(entry_name("thickness_mm", i), thickness_mm[i]);
+        const double at = std::clamp((texel_scale * thickness + texel_offset) * size - 0.5, 0.0, size - 1);
+        const auto below = static_cast<std::size_t>(at);
+        const std::size_t above = std::min(below + 1, colors.size() - 1);
+        result[i] = glm::mix(colors[below], colors[above], at - static_cast<double>(below));
+    }
+    return result;
 }
 
 std::vector<glm::dvec3> six_gaussian_lookup(const LutAxis& axis) {
