@@ -83,9 +83,18 @@ def update_scene(
     return rebuilt
 
 
+def _is_fixed(group: bpy.types.NodeTree) -> bool:
+    """Nodes cannot be added while rendering, nor to a group from a library."""
+    return SESSION.rendering or group.library is not None
+
+
 def _as_can_be(obj: bpy.types.Object, skin: Skin, depsgraph: bpy.types.Depsgraph) -> Skin:
     """The skin, lit per pixel if its light cannot be shown through its shape."""
-    if skin.shape is None or shape_update.prepare(obj, skin, depsgraph).reason is None:
+    if skin.shape is None:
+        return skin
+    group = obj.skinglow.group
+    has_nodes = not _is_fixed(group) or nodes_of(group).tiles
+    if shape_update.prepare(obj, skin, depsgraph, has_nodes).reason is None:
         return skin
     evaluated = obj.evaluated_get(depsgraph)
     return lit_per_pixel(skin, evaluated, evaluated.matrix_world)
@@ -105,8 +114,7 @@ def _update_group(
     before = {key: (signature, atlas.rows.get(key)) for key, signature in atlas.signatures.items()}
     other = SESSION.atlases.get((key_of(group), "RENDER" if mode == "VIEWPORT" else "VIEWPORT"))
     kept = _keep(atlas, other, members) if only_live else set()
-    # Nodes cannot be added while rendering, nor to a group from a library.
-    fixed = SESSION.rendering or group.library is not None
+    fixed = _is_fixed(group)
     _compute(atlas, members, kept, reading, faults, fixed)
     if _fit_nodes(group, atlas, members):
         old, atlas = atlas, _atlas(group, mode)
@@ -214,8 +222,7 @@ def _fit_nodes(group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy.
         return False
     if SESSION.rendering:
         # Nodes that are no longer needed may stay.
-        is_enough = (there.rows or not wanted.rows) and (there.tiles or not wanted.tiles) and wanted.layout is None
-        if is_enough or wanted == there._replace(rows=wanted.rows, tiles=wanted.tiles):
+        if there.rows >= wanted.rows and there.tiles >= wanted.tiles and wanted.layout in (None, there.layout):
             return False
         raise SkinError(
             "its material has too few nodes for these lights, and nodes cannot be added while rendering: "

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shows what the thread finds of the light through shapes, as it finds it."""
 
+from itertools import count
+
 import bpy
 
 from ..identity import key_of
@@ -13,6 +15,8 @@ from .shape_update import state_of
 #: Seconds between two looks at the thread, and to its end when Blender quits; the core looks far more often.
 INTERVAL = 0.03
 MAX_WAIT = 10.0
+#: How many looks make a redraw of the progress in the panel.
+LOOKS = 8
 
 
 def take_soon() -> None:
@@ -22,11 +26,16 @@ def take_soon() -> None:
         bpy.app.timers.register(_take, first_interval=INTERVAL)
 
 
+_looks = count()
+
+
 def _take() -> float | None:
     # Images are not written while Blender renders.
     if not SESSION.rendering:
         with faults_shown():
             take_answers()
+            if next(_looks) % LOOKS == 0:
+                _redraw(panels_only=True)
     return INTERVAL if SESSION.shape_worker is not None and SESSION.shape_worker.is_busy else None
 
 
@@ -68,11 +77,15 @@ def _show(new: list[str], faulty: list[str]) -> None:
             obj.update_tag(refresh={"OBJECT"})
 
 
-def _redraw() -> None:
+def _redraw(panels_only: bool = False) -> None:
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
-            if area.type in ("VIEW_3D", "PROPERTIES"):
+            if area.type == "PROPERTIES" or (area.type == "VIEW_3D" and not panels_only):
                 area.tag_redraw()
+            elif area.type == "VIEW_3D":
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()
 
 
 def stop() -> None:

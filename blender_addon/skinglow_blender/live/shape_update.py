@@ -59,6 +59,10 @@ LINKED = Unfit(
 ALL_THICK = Unfit("it is so thick everywhere that no light comes through", "look whether Unit is right")
 EDIT_MODE = Unfit("it is in Edit Mode", "leave it (Tab)")
 OVERLAPPING = Unfit("its modifiers show the same faces at several places, as Mirror and Array do", APPLY)
+NO_NODES = Unfit(
+    "its material has no nodes for that, and nodes cannot be added to a library's material nor while rendering",
+    "make the material local, or update before rendering",
+)
 MIXED = Unfit("its modifiers make faces anew, as Decimate, Remesh and Weld do", APPLY)
 
 
@@ -76,6 +80,7 @@ class ShapeState:
     def __init__(self) -> None:
         self.mesh: ShownMesh | None = None
         self.reason: Unfit | None = None  #: None: its light can be shown through its shape
+        self.mesh_reason: Unfit | None = None  #: the same as far as the mesh is the reason
         self.tiles: Tiles | None = None
         self.key: BodyKey | None = None
         self.body: Body | None = None
@@ -122,14 +127,23 @@ def is_synchronous(mode: str) -> bool:
     return bpy.app.background or mode == "RENDER"
 
 
-def prepare(obj: bpy.types.Object, skin: Skin, depsgraph: bpy.types.Depsgraph) -> ShapeState:
-    """Reads the mesh of a skin that is lit through its shape, and finds out whether it can be."""
+def prepare(obj: bpy.types.Object, skin: Skin, depsgraph: bpy.types.Depsgraph, has_nodes: bool) -> ShapeState:
+    """Reads the mesh of a skin that is lit through its shape, and finds out whether it can be.
+
+    has_nodes  whether its material has, or can be given, the nodes for that
+    """
     state = SESSION.shapes.setdefault((skin.key, depsgraph.mode), ShapeState())
+    state.reason = NO_NODES if not has_nodes else _reason_of_mesh(state, obj, skin, depsgraph)
+    return state
+
+
+def _reason_of_mesh(
+    state: ShapeState, obj: bpy.types.Object, skin: Skin, depsgraph: bpy.types.Depsgraph
+) -> Unfit | None:
     evaluated = obj.evaluated_get(depsgraph)
     if evaluated.mode == "EDIT" or obj.mode == "EDIT":
         # What was shown before goes on being shown: nothing is solved in a mesh that is being edited.
-        state.reason = None if state.shown is not None else EDIT_MODE
-        return state
+        return None if state.shown is not None else EDIT_MODE
     if SESSION.shown_meshes is None:
         SESSION.shown_meshes = ShownMeshes()
     mesh = SESSION.shown_meshes.read(evaluated, depsgraph)
@@ -147,12 +161,12 @@ def prepare(obj: bpy.types.Object, skin: Skin, depsgraph: bpy.types.Depsgraph) -
     state.mesh = mesh
     if is_new or state.tiles is None or not state.key.same_place(key):
         state.tiles = None
-        state.reason = _reason_without_tiles(obj, mesh)
-        if state.reason is None:
+        state.mesh_reason = _reason_without_tiles(obj, mesh)
+        if state.mesh_reason is None:
             state.tiles = _tiles_of(skin, key) or _new_tiles(evaluated, mesh, skin, key)
-            state.reason = _reason_of(state.tiles)
+            state.mesh_reason = _reason_of(state.tiles)
     state.key = key
-    return state
+    return state.mesh_reason
 
 
 def _reason_without_tiles(obj: bpy.types.Object, mesh: ShownMesh) -> Unfit | None:

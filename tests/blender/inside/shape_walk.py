@@ -93,8 +93,8 @@ class ShapeWalk(SceneEdits):
         bpy.ops.render.render()
 
     def step(self):
-        edits = (self.recolor, self.power, self.kind, self.move_light, self.hide_light, self.new_light, self.sun, self.sun,
-                 self.duplicate_light, self.delete_light, self.exclude, self.hide_collection, self.frame,
+        edits = (self.recolor, self.power, self.kind, self.move_light, self.hide_light, self.new_light, self.sun,
+                 self.sun, self.duplicate_light, self.delete_light, self.exclude, self.hide_collection, self.frame,
                  self.move_skin, self.scale, self.deform, self.modifier, self.lighting, self.settings, self.medium,
                  self.duplicate_skin, self.push_undo, self.undo, self.save_and_load, self.render)  # fmt: skip
         edit = self.random.choice(edits)
