@@ -16,7 +16,7 @@ from ..session import SESSION
 from ..show.frozen import is_frozen
 from ..show.group_nodes import GroupNodes, build_nodes, nodes_of
 from ..show.lut_image import Atlas, ensure_images, has_room
-from ..table.lut_layout import layout_of, plain_row, surface_row
+from ..table.lut_layout import Layout, layout_of, plain_row, surface_row
 from ..table.occlusion import with_visible_fractions
 from ..table.skin_tables import Signature, Table, compute_table, signature_of
 from ..table.texel_mapping import texels_per_mm

@@ -174,7 +174,9 @@ def _reason_without_tiles(obj: bpy.types.Object, mesh: ShownMesh) -> Unfit | Non
         return LINKED if obj.data.library is not None else NO_TILES
     if rows_of(obj.data) == 0:
         return ALL_THICK
-    return None if mesh.texels is not None and is_of_this_mesh(obj.data) else EDITED
+    if not is_of_this_mesh(obj.data):
+        return EDITED
+    return MIXED if mesh.texels is None or not mesh.texels.any() else None
 
 
 def _reason_of(tiles: Tiles) -> Unfit | None:

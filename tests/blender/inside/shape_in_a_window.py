@@ -56,7 +56,7 @@ def check_the_table_stands_in_and_then_light_is_solved(_work):
         first = pixels(obj)
         assert report(obj).shown == "TABLE" and first[..., :3].max() > 0.0
         wait_for(obj, "TABLE", "COARSE", "FULL")
-        assert_through(obj, 1e-3)
+        assert_through(obj)
         state = report(obj)
         assert 0 < state.ready_parts <= state.parts and state.cells > 0 and state.bytes > 0
         assert len(state.error) == 3 and state.progress is None
@@ -66,7 +66,7 @@ def check_the_table_stands_in_and_then_light_is_solved(_work):
         depsgraph()
         np.testing.assert_array_equal(pixels(obj), before)
         wait_for(obj, "COARSE", "FULL")
-        assert_through(obj, 1e-3)
+        assert_through(obj)
 
 
 def check_colors_and_sliders_show_at_once(_work):
@@ -81,7 +81,7 @@ def check_colors_and_sliders_show_at_once(_work):
         key.data.energy = 3.0
         assert_through(obj, 0.01)
         wait_for(obj, "COARSE", "FULL")
-        assert_through(obj, 1e-3)
+        assert_through(obj)
         before = pixels(obj)
         obj.skinglow.blood_fraction = 0.02
         depsgraph()
@@ -101,7 +101,7 @@ def check_the_newest_request_wins_and_faults_are_told(_work):
             turn(key, (0.1 * i, 0.3, 1.0))
             depsgraph()
         wait_for(obj)
-        assert_through(obj, 1e-3)
+        assert_through(obj)
         # Undo and what else replaces all data: nothing is computed again.
         answer = SESSION.shapes[key_of(obj), "VIEWPORT"].answer
         before = pixels(obj)
