@@ -115,9 +115,12 @@ py::array per_light_array(const LitShape& self) {
     return rows.attr("reshape")(self.lights(), self.exitance().size(), 3);
 }
 
-py::array recolored(const LitShape& self, py::handle colors, const py::object& progress) {
+py::array recolored(const LitShape& self, py::handle colors, bool transmitted, const py::object& progress) {
     const std::vector<glm::dvec3> given = numpy::to_vec3s(colors, "colors");
-    return numpy::from_vec3s(numpy::without_gil([&] { return self.recolor(given, ask_python(progress)); }));
+    return numpy::from_vec3s(numpy::without_gil([&] {
+        const ShapeProgress told = ask_python(progress);
+        return transmitted ? self.recolor_transmitted(given, told) : self.recolor(given, told);
+    }));
 }
 
 template <typename Of>
@@ -153,7 +156,8 @@ void bind_shape(py::module_& m) {
              })
         .def_property_readonly("left_out", &LitShape::left_out)
         .def("per_light", &per_light_array, "See skinglow.LitShape.per_light.")
-        .def("recolor", &recolored, "colors"_a, "progress"_a, "See skinglow.LitShape.recolor.")
+        .def("recolor", &recolored, "colors"_a, "transmitted"_a, "progress"_a,
+             "See skinglow.LitShape.recolor.")
         .def("with_tissue", &in_tissue<LitShape>, "tissue"_a, "See skinglow.LitShape.with_tissue.");
     py::class_<Shape>(m, "Shape", "See skinglow.Shape.")
         .def(py::init(&make_shape), "vertices"_a, "triangles"_a, "tissue"_a, "absorption"_a,

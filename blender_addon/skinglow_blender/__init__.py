@@ -68,7 +68,9 @@ __all__ = [
     "register",
     "remove_skin",
     "render_batch",
+    "set_medium",
     "show_light_by",
+    "state_of",
     "thickness_from_image",
     "unfreeze",
     "unregister",
@@ -139,6 +141,8 @@ unfreeze = _registering(freezing.unfreeze)
 bake_thickness = _registering(thickness_map.bake_thickness)
 thickness_from_image = _registering(thickness_map.thickness_from_image)
 remove_skin = _registering(skin.remove_skin)
+set_medium = _registering(skin.set_medium)
+state_of = _registering(skin.state_of)
 show_light_by = _registering(subsurface.show_light_by)
 render_batch = _registering(batch.render_batch)
 batch_main = _registering(batch.main)

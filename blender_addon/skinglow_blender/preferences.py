@@ -31,7 +31,7 @@ class SkinglowPreferences(bpy.types.AddonPreferences):
         description="Update skins while lights are edited; if disabled, only Update Now, frame changes and renders do",
     )
     mode: EnumProperty(name="Mode", items=MODES, default="PHYSICAL", description="Mode of new skins")
-    weights: EnumProperty(name="Lighting", items=LIGHTINGS, default="OBJECT", description="Lighting of new skins")
+    weights: EnumProperty(name="Lighting", items=LIGHTINGS, default="SHAPE", description="Lighting of new skins")
     preset: EnumProperty(name="Preset", items=PRESETS[1:], default="LIGHT", description="Preset of new skins")
     unit_mm: FloatProperty(
         name="Unit",

@@ -7,7 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .commands.freezing import Freezing
+    from .live.newest_wins import NewestWins
+    from .live.shape_update import ShapeState
     from .read.scene_reading import SceneReading
+    from .read.shown_mesh import ShownMeshes
     from .show.lut_image import Atlas
     from .show.tile_image import TileAtlas
     from .table.occlusion import Occluders
@@ -54,6 +57,10 @@ class Session:
         self.requested_lists: dict[str, tuple[int, str, str]] = {}
         #: Thumbnail to what it was drawn from, and the thickness at its right end, mm.
         self.thumbnails: dict[str, tuple[tuple, float]] = {}
+        #: (skin, depsgraph mode) to its light through its shape, the meshes that this is solved in, and the thread.
+        self.shapes: dict[tuple[str, str], ShapeState] = {}
+        self.shown_meshes: ShownMeshes | None = None
+        self.shape_worker: NewestWins | None = None
         #: The thickness measurement that runs in a thread.
         self.measuring: Measuring | None = None
         #: Light that a window is freezing to images, frame by frame.
@@ -71,10 +78,13 @@ class Session:
         self.reading = None
 
     def forget(self) -> None:
-        """Resets to the state before the first update; measuring and freezing go on."""
-        kept = self.measuring, self.freezing, self.updates
+        """Resets to the state before the first update; measuring, freezing and light through shapes go on."""
+        names = ("measuring", "freezing", "updates", "shapes", "shown_meshes", "shape_worker")
+        kept = {name: getattr(self, name) for name in names}
         self.__init__()
-        self.measuring, self.freezing, self.updates = kept
+        self.__dict__.update(kept)
+        if self.shown_meshes is not None:
+            self.shown_meshes.reread()
 
 
 SESSION = Session()

@@ -51,7 +51,12 @@ MODES = (
 #: Names of modes and lightings that `make_skin` accepts besides their identifiers.
 ALIASES = {
     "mode": {"FIXED": "EXISTING", "TINTED": "PAPER"},
-    "weights": {"PER_OBJECT": "OBJECT", "PER_PIXEL": "SURFACE", "AUTO": "SURFACE"},
+    "weights": {
+        "PER_OBJECT": "OBJECT",
+        "PER_PIXEL": "SURFACE",
+        "AUTO": "SURFACE",
+        "THROUGH_THE_SHAPE": "SHAPE",
+    },
 }
 LIGHTINGS = (
     (
@@ -63,6 +68,11 @@ LIGHTINGS = (
         "SURFACE",
         "Per Pixel",
         "Compute the light on the far side at each pixel, with its angle: for lights that are close",
+    ),
+    (
+        "SHAPE",
+        "Through the Shape",
+        "Solve the light in the flesh itself, with the shape of the mesh and its shadows: the most accurate",
     ),
 )
 BASES = (
@@ -153,7 +163,30 @@ class SkinSettings(bpy.types.PropertyGroup):
         items=LIGHTINGS,
         default="OBJECT",
         update=_changed,
-        description="Whether the lights are evaluated once per object or at each pixel (Physical mode)",
+        description="Whether the lights are evaluated once per object, at each pixel, or solved in the flesh "
+        "(Physical mode)",
+    )
+    cell_mm: FloatProperty(
+        name="Cells",
+        # The subtype whose unit is mm whatever the unit of the scene.
+        subtype="DISTANCE_CAMERA",
+        default=0.8,
+        min=0.02,
+        soft_min=0.3,
+        soft_max=1.6,
+        max=1000.0,
+        precision=2,
+        update=_changed,
+        description="Edge of the cells that light is solved on (Through the Shape); 0.8 mm for work, 0.5 mm is final "
+        "quality",
+    )
+    reentries: IntProperty(
+        name="Reentries",
+        default=2,
+        min=0,
+        max=8,
+        update=_changed,
+        description="How often light that leaves skin may fall on skin again and enter it (Through the Shape)",
     )
     strength: FloatProperty(
         name="Strength",

@@ -258,12 +258,15 @@ class LitShape:
         """(k, n, 3): exitance by light alone. Solved when it is first asked for, each light by itself."""
         return self._lit.per_light()
 
-    def recolor(self, colors: ArrayLike, *, progress: Callable[[float], bool] | None = None) -> NDArray[np.float64]:
+    def recolor(
+        self, colors: ArrayLike, *, transmitted: bool = False, progress: Callable[[float], bool] | None = None
+    ) -> NDArray[np.float64]:
         """(n, 3): the exitance with other colors of the lights; sums alone once this or per_light was asked for.
 
-        colors  (k, 3), linear Rec.709, finite, 0 or more, instead of the lights' own
+        colors       (k, 3), linear Rec.709, finite, 0 or more, instead of the lights' own
+        transmitted  what comes through instead of the exitance
         """
-        return self._lit.recolor(colors, progress)
+        return self._lit.recolor(colors, transmitted, progress)
 
     def with_tissue(self, tissue: Tissue) -> LitShape:
         """The same light in another skin, in milliseconds and without solving: see Shape.with_tissue."""

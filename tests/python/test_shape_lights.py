@@ -54,8 +54,10 @@ def test_recoloring_is_a_light_of_that_color(made):
         sg.Light(light.kind, tuple(color), light.position, light.direction, power=light.power, radius=light.radius)
         for light, color in zip(LIGHTS, colors, strict=True)
     ]
-    expected = made.light(changed).exitance
-    assert_close(made.light(LIGHTS).recolor(colors), expected)
+    expected = made.light(changed)
+    lit = made.light(LIGHTS)
+    assert_close(lit.recolor(colors), expected.exitance)
+    assert_close(lit.recolor(colors, transmitted=True), expected.transmitted)
 
 
 def test_no_lights_are_dark(made):

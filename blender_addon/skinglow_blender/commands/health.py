@@ -8,6 +8,7 @@ import numpy as np
 
 from ..errors import SkinError
 from ..identity import key_of
+from ..live.shape_update import EDIT_MODE, shape_report
 from ..read.measured_size import is_reshaped
 from ..read.mesh_reading import evaluated_mesh, vertices_of_slots
 from ..session import SESSION
@@ -56,6 +57,10 @@ def quick_faults(obj: bpy.types.Object) -> list[Fault]:
         faults += material_faults(obj)
         if is_frozen(group):
             faults += _frozen_faults(obj, group)
+    report = shape_report(obj)
+    if report is not None and report.reason not in (None, EDIT_MODE):
+        what, remedy = report.reason
+        faults.append(Fault(f"It is lit per pixel, not through its shape: {what}", remedy))
     settings = obj.skinglow
     if settings.reference == "OBJECT" and not _has_reference(settings):
         faults.append(Fault("The object or bone that it measures light distances from is missing", CHOOSE_REFERENCE))

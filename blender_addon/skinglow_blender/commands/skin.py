@@ -9,10 +9,13 @@ import numpy as np
 
 from ..errors import SkinError
 from ..identity import key_of
+from ..live import shape_update
 from ..live.file_upgrade import upgrade
 from ..live.live_update import Rebuilt, update_scene
+from ..live.shape_tiles import store_missing_tiles
+from ..live.shape_update import ShapeReport, shape_report
 from ..read import measured_geometry, working_space, world_image
-from ..read.scene_reading import ROW_PROPERTY, read_skin
+from ..read.scene_reading import MEDIUM_PROPERTY, ROW_PROPERTY, read_skin
 from ..session import SESSION
 from ..show.frozen import is_frozen, read_frozen
 from ..show.lut_image import group_layout, image_pair, read_row, remove_images, shown_image
@@ -25,7 +28,7 @@ from ..skin_settings import MEASURING_NAMES, SETTING_NAMES, applied
 from ..table.lut_layout import shown_colors
 from ..table.skin_tables import Table
 from ..thickness import thickness_attribute
-from ..thickness.tile_attribute import remove_tiles
+from ..thickness.tile_attribute import ensure_tiles, remove_tiles
 
 
 class SkinState(NamedTuple):
@@ -33,7 +36,7 @@ class SkinState(NamedTuple):
 
     name: str  #: of the object
     mode: str  #: 'EXISTING', 'PAPER' or 'PHYSICAL'
-    weights: str  #: 'OBJECT' or 'SURFACE'
+    weights: str  #: 'OBJECT', 'SURFACE' or 'SHAPE'
     weights_bound: float | None  #: of a single weight, relative to its largest channel; None if lit per object
     point: tuple[float, float, float]  #: reference point of distances, world, scene units
     size: int  #: entries of its lookup
@@ -42,6 +45,7 @@ class SkinState(NamedTuple):
     unit_mm: float  #: millimeters per scene unit
     row: int  #: of the lookup image, from the bottom
     rebuilt: tuple[Rebuilt, ...]  #: the tables that were computed
+    shape: ShapeReport | None = None  #: how its light through its shape was found; None: it is lit in another way
 
 
 def make_skin(
@@ -58,7 +62,8 @@ def make_skin(
     slots      the material slots that are skin, by index or name of the material, without eyes or hair; by
                default those that were chosen before, at first all
     settings   any property of `obj.skinglow` (skin_settings.py): mode="physical"|"existing"|"paper" (also "fixed"
-               and "tinted"), weights="object"|"surface" (mode physical: lit per object or per pixel), strength,
+               and "tinted"), weights="object"|"surface"|"shape" (mode physical: lit per object, per pixel or through
+               its shape), cell_mm and reentries (through its shape), strength,
                blood_weight, attenuation, reference="bounds"|"origin"|"point"|"object", reference_point (which
                implies "point"), reference_object and reference_bone (which imply "object"), size, max_thickness_mm,
                unit_mm, rays, ... Another call changes only the given ones.
@@ -88,6 +93,8 @@ def make_skin(
         for material in chosen_materials(obj):
             fill_mask(material)
         store_masks(obj)
+        if obj.skinglow.mode == "PHYSICAL" and obj.skinglow.weights == "SHAPE" and obj.data.library is None:
+            ensure_tiles(obj, scene)
         if ROW_PROPERTY not in obj:
             obj[ROW_PROPERTY] = (0.0, 0.0, 0.0, 0.0)
         obj.update_tag(refresh={"OBJECT"})
@@ -119,6 +126,7 @@ def state_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SkinState
         unit_mm=measured_geometry.unit_mm(obj, depsgraph.scene),
         row=settings.row,
         rebuilt=(),
+        shape=shape_report(obj, depsgraph.mode),
     )
 
 
@@ -136,6 +144,8 @@ def update(depsgraph: bpy.types.Depsgraph) -> list[Rebuilt]:
     are updated; a skin with a fault keeps its last good lookup.
     """
     world_image.forget_edited()
+    if depsgraph.mode == "VIEWPORT" and not SESSION.rendering and store_missing_tiles():
+        depsgraph.update()
     rebuilt = update_scene(depsgraph)
     if SESSION.faults:
         raise SkinError("; ".join(SESSION.faults.values()))
@@ -185,6 +195,8 @@ def remove_skin(obj: bpy.types.Object) -> None:
         settings.property_unset(name)
     settings.property_unset("row")
     obj.pop(ROW_PROPERTY, None)
+    obj.pop(MEDIUM_PROPERTY, None)
+    shape_update.forget({key_of(obj)})
     obj.pop(TILE_PROPERTY, None)
     skins = [o for o in bpy.data.objects if o.skinglow.enabled]
     if not any(o.data == obj.data for o in skins):
@@ -204,6 +216,41 @@ def remove_skin(obj: bpy.types.Object) -> None:
             bpy.data.node_groups.remove(group)
         SESSION.forget_tables()
     obj.update_tag(refresh={"OBJECT"})
+
+
+def set_medium(
+    obj: bpy.types.Object,
+    absorption: Sequence[float] | None = None,
+    reduced_scattering: Sequence[float] | None = None,
+    refractive_index: float = 1.4,
+    surface: str = "rough",
+) -> None:
+    """Has light go through the shape of a skin as through a medium of three channels instead of a tissue.
+
+    absorption, reduced_scattering
+                      three numbers each, 1/mm, 0 to 1e5; None for both: the tissue of the sliders again
+    refractive_index  1 to 3; outside is air
+    surface           "rough" (light that crosses it forgets its direction) or "smooth" (Fresnel's reflectance)
+    Raises ValueError naming the argument. A table that shows the skin is still that of the tissue.
+    """
+    skin_settings_of(obj)
+    if absorption is None and reduced_scattering is None:
+        obj.pop(MEDIUM_PROPERTY, None)
+    else:
+        channels = [*_channels("absorption", absorption), *_channels("reduced_scattering", reduced_scattering)]
+        if not 1.0 <= refractive_index <= 3.0:
+            raise ValueError(f"set_medium: refractive_index is {refractive_index}; allowed: 1 to 3")
+        if surface not in ("rough", "smooth"):
+            raise ValueError(f"set_medium: surface is {surface!r}; allowed: 'rough', 'smooth'")
+        obj[MEDIUM_PROPERTY] = [*channels, float(refractive_index), float(surface == "smooth")]
+    obj.update_tag(refresh={"OBJECT"})
+
+
+def _channels(name: str, values: Sequence[float] | None) -> list[float]:
+    found = np.asarray(values, np.float64) if values is not None else np.empty(0)
+    if found.shape != (3,) or not ((found >= 0.0) & (found <= 1e5)).all():
+        raise ValueError(f"set_medium: {name} is {values}; allowed: three numbers from 0 to 1e5, 1/mm")
+    return found.tolist()
 
 
 def reset_settings(obj: bpy.types.Object) -> None:

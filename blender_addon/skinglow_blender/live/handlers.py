@@ -15,10 +15,12 @@ from ..show.lut_image import ROWS, skin_groups
 from ..show.mask import mask_groups, store_masks
 from ..show.tile_image import TILES
 from ..table import occlusion
+from . import shape_answers, shape_update
 from .file_upgrade import upgrade
 from .guard import guarded, has_skins
 from .live_update import update_scene
 from .relevant_updates import changes_of
+from .shape_tiles import store_missing_tiles
 from .windows import follow_windows, is_shown, stop_following_windows, update_shown, update_windows_soon
 
 
@@ -37,6 +39,8 @@ def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
         return
     if update_shown(depsgraph):
         update_windows_soon()
+    if bpy.app.background and not SESSION.rendering:
+        store_missing_tiles()
 
 
 @guarded
@@ -102,6 +106,7 @@ def follow_weights(skins: Iterable[bpy.types.Object]) -> None:
 @guarded
 def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
     """Called after loading a file. Evaluations during loading are not reported, so everything is updated here."""
+    shape_update.forget()
     SESSION.forget()
     follow_windows()  # loading clears subscriptions
     upgrade()
@@ -158,4 +163,6 @@ def unregister() -> None:
     # Whoever saves the file from now on, and whoever renders it, has the pixels that are shown now.
     on_save(None, None)
     stop_following_windows()
+    shape_answers.stop()
+    shape_update.forget()
     SESSION.forget_tables()

@@ -11,18 +11,19 @@ from ..errors import SkinError
 from ..identity import key_of
 from ..read import working_space
 from ..read.scene_lights import FIELDS
-from ..read.scene_reading import ROW_PROPERTY, SceneReading, Skin, read_scene
+from ..read.scene_reading import ROW_PROPERTY, SceneReading, Skin, lit_per_pixel, read_scene
 from ..session import SESSION
 from ..show.frozen import is_frozen
+from ..show.group_nodes import GroupNodes, build_nodes, nodes_of
 from ..show.image_pairs import have_room
 from ..show.lut_image import Atlas, ensure_images, images_of
-from ..show.skin_group import build_plain
-from ..show.surface_group import build_surface
-from ..table.lut_layout import layout_of, plain_row, surface_row
+from ..table.lut_layout import Layout, layout_of, plain_row, surface_row
 from ..table.occlusion import with_visible_fractions
 from ..table.skin_tables import Signature, Table, compute_table, signature_of
 from ..table.texel_mapping import texels_per_mm
+from . import shape_answers, shape_update
 from .frozen_update import follow_frozen, mark_of
+from .shape_tiles import hide_tiles, write_tiles
 
 
 class Rebuilt(NamedTuple):
@@ -72,12 +73,32 @@ def update_scene(
                 SESSION.marks.update((skin.key, (frame, mark_of(obj, skin, reading))) for obj, skin in members)
             continue
         try:
+            members = [(obj, _as_can_be(obj, skin, depsgraph)) for obj, skin in members]
             rebuilt += _update_group(group, members, reading, depsgraph.mode, only_live, faults)
         except SkinError as error:
             for _obj, skin in members:
                 faults[skin.key] = f"{skin.name}: {error}"
     SESSION.faults = faults
+    shape_update.forget_lost({skin.key for _obj, skin in reading.skins if skin.shape is not None})
+    shape_answers.take_soon()
     return rebuilt
+
+
+def _is_fixed(group: bpy.types.NodeTree) -> bool:
+    """Nodes cannot be added while rendering, nor to a group from a library."""
+    return SESSION.rendering or group.library is not None
+
+
+def _as_can_be(obj: bpy.types.Object, skin: Skin, depsgraph: bpy.types.Depsgraph) -> Skin:
+    """The skin, lit per pixel if its light cannot be shown through its shape."""
+    if skin.shape is None:
+        return skin
+    group = obj.skinglow.group
+    has_nodes = not _is_fixed(group) or nodes_of(group).tiles
+    if shape_update.prepare(obj, skin, depsgraph, has_nodes).reason is None:
+        return skin
+    evaluated = obj.evaluated_get(depsgraph)
+    return lit_per_pixel(skin, evaluated, evaluated.matrix_world)
 
 
 def _update_group(
@@ -94,10 +115,9 @@ def _update_group(
     before = {key: (signature, atlas.rows.get(key)) for key, signature in atlas.signatures.items()}
     other = SESSION.atlases.get((key_of(group), "RENDER" if mode == "VIEWPORT" else "VIEWPORT"))
     kept = _keep(atlas, other, members) if only_live else set()
-    # Nodes cannot be added while rendering, nor to a group from a library.
-    fixed = SESSION.rendering or group.library is not None
+    fixed = _is_fixed(group)
     _compute(atlas, members, kept, reading, faults, fixed)
-    if _fit_layout(group, atlas, members):
+    if _fit_nodes(group, atlas, members):
         old, atlas = atlas, _atlas(group, mode, images_of(group))
         kept = _keep(atlas, old, members) if only_live else set()
         _compute(atlas, members, kept, reading, faults, fixed)
@@ -113,11 +133,37 @@ def _update_group(
             if changed_from != (signature, row):
                 rebuilt.append(Rebuilt(skin.name, mode, changed_from[0], signature))
         _set_row_property(obj, skin, atlas, row)
+    _follow_shapes(group, members, atlas, kept, reading, faults)
     if atlas.is_dirty:
         atlas.write(group)
     if mode == "RENDER" or not SESSION.rendering:
         atlas.show(group)
     return rebuilt
+
+
+def _follow_shapes(
+    group: bpy.types.NodeTree,
+    members: list[tuple[bpy.types.Object, Skin]],
+    atlas: Atlas,
+    kept: set[str],
+    reading: SceneReading,
+    faults: dict[str, str],
+) -> None:
+    """Brings the light through shapes up to date, and the tiles that show it."""
+    shown = {}
+    for obj, skin in members:
+        state = shape_update.state_of(skin.key, atlas.mode) if skin.shape is not None else None
+        table = atlas.tables.get(skin.key)
+        if state is None or table is None:
+            hide_tiles(obj)
+            continue
+        if skin.key not in kept or not shape_update.keep(state, skin):
+            shape_update.follow(state, skin, table, reading, atlas.mode)
+        if state.fault:
+            faults[skin.key] = f"{skin.name}: {state.fault}"
+        if state.shown is not None:
+            shown[obj] = state.shown
+    write_tiles(group, atlas.mode, shown)
 
 
 def _keep(atlas: Atlas, other: Atlas | None, members: list[tuple[bpy.types.Object, Skin]]) -> set[str]:
@@ -148,6 +194,8 @@ def _compute(
         if skin.key in kept:
             continue
         signature = signature_of(skin, reading.lights, reading.world)
+        if skin.shape is not None:
+            signature = signature._replace(mesh=shape_update.mesh_version(skin.key, atlas.mode))
         if atlas.signatures.get(skin.key) == signature:
             continue
         try:
@@ -167,39 +215,62 @@ def _texels(table: Table, skin: Skin, atlas: Atlas) -> np.ndarray:
     return surface_row(columns, weight, table.lighting, depth_per_mm, atlas.layout)
 
 
-def _fit_layout(group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]]) -> bool:
+def _fit_nodes(group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]]) -> bool:
     """Builds the nodes that the group's skins need; returns whether that invalidated the atlas."""
-    wanted = atlas.layout
-    tables = [atlas.tables[skin.key] for _obj, skin in members if skin.key in atlas.tables]
-    lit = [table for table in tables if table.lighting is not None]
-    if lit or wanted is not None:
-        entries = max((len(table.colors) for table in tables), default=1)
-        for table in lit:
-            needed = layout_of(table.lighting, entries)
-            wanted = needed if wanted is None else wanted.joined(needed)
-        if not lit and not _has_surface_weights(group):
-            wanted = None
-        elif wanted.entries < entries:
-            wanted = wanted._replace(entries=entries)
-    if wanted == atlas.layout or group.library is not None or (wanted is None and SESSION.rendering):
+    there = nodes_of(group)
+    wanted = _wanted_nodes(group, atlas, members, there)
+    if wanted == there or group.library is not None:
         return False
     if SESSION.rendering:
+        # Nodes that are no longer needed may stay.
+        if there.rows >= wanted.rows and there.tiles >= wanted.tiles and wanted.layout in (None, there.layout):
+            return False
         raise SkinError(
             "its material has too few nodes for these lights, and nodes cannot be added while rendering: "
             "update before rendering"
         )
-    if wanted is None:
-        build_plain(group)
-        return True
-    ensure_images(group, wanted.width, atlas.pixels.shape[0])
-    build_surface(group, wanted)
-    return True
+    if wanted.layout is not None:
+        ensure_images(group, wanted.layout.width, atlas.pixels.shape[0])
+    build_nodes(group, wanted)
+    return not atlas.fits(group)
 
 
-def _has_surface_weights(group: bpy.types.NodeTree) -> bool:
-    """Whether any skin of the group may be lit per pixel, so that the nodes for that are kept."""
-    skins = (o.skinglow for o in bpy.data.objects if o.type == "MESH")
-    return any(s.group == group and s.enabled and s.mode == "PHYSICAL" and s.weights != "OBJECT" for s in skins)
+def _wanted_nodes(
+    group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]], there: GroupNodes
+) -> GroupNodes:
+    shapes = {skin.key for _obj, skin in members if skin.shape is not None}
+    others = [s for o, s in _settings_of(group) if key_of(o) not in shapes]
+    by_tiles = bool(shapes) or any(s.mode == "PHYSICAL" and s.weights == "SHAPE" for s in others)
+    by_rows = len(shapes) < len(members) or any(s.mode != "PHYSICAL" or s.weights != "SHAPE" for s in others)
+    if not by_rows:
+        return GroupNodes(None, tiles=True, rows=False)
+    return GroupNodes(_wanted_layout(atlas, members, others), tiles=by_tiles, rows=True)
+
+
+def _wanted_layout(
+    atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]], others: list[bpy.types.PropertyGroup]
+) -> Layout | None:
+    """The layout of rows that are lit per pixel; None: plain rows."""
+    wanted = atlas.layout
+    tables = [atlas.tables[skin.key] for _obj, skin in members if skin.key in atlas.tables]
+    lit = [table for table in tables if table.lighting is not None]
+    if not lit and wanted is None:
+        return None
+    # The nodes for light per pixel are kept as long as any skin of the group may be lit so.
+    may_be_lit = any(s.mode == "PHYSICAL" and s.weights not in ("OBJECT", "SHAPE") for s in others)
+    if not lit and not may_be_lit:
+        return None
+    entries = max((len(table.colors) for table in tables), default=1)
+    for table in lit:
+        needed = layout_of(table.lighting, entries)
+        wanted = needed if wanted is None else wanted.joined(needed)
+    return wanted if wanted.entries >= entries else wanted._replace(entries=entries)
+
+
+def _settings_of(group: bpy.types.NodeTree) -> list[tuple[bpy.types.Object, bpy.types.PropertyGroup]]:
+    """The skins of a group in the whole file, in other scenes too."""
+    meshes = [obj for obj in bpy.data.objects if obj.type == "MESH"]
+    return [(o, o.skinglow) for o in meshes if o.skinglow.enabled and o.skinglow.group == group]
 
 
 def _atlas(group: bpy.types.NodeTree, mode: str, images: list[bpy.types.Image]) -> Atlas:
@@ -267,6 +338,8 @@ REASONS = {
     "point": "reference point",
     "weights": "weights",
     "surface": "its position or shape",
+    "shape": "its position, size, cells or medium",
+    "mesh": "its mesh",
     "world": "world",
 }
 

@@ -11,6 +11,7 @@ from ..session import SESSION
 from ..show.mask import store_all_masks
 from .guard import faults_shown, has_skins
 from .live_update import Rebuilt, update_scene
+from .shape_tiles import store_missing_tiles
 
 #: Seconds from a request to the update.
 DELAY = 0.05
@@ -66,6 +67,7 @@ def update_windows() -> float | None:
         return DELAY
     with faults_shown():
         store_all_masks()
+        store_missing_tiles()
         for layer in shown_layers():
             if layer.depsgraph is not None:
                 update_shown(layer.depsgraph)

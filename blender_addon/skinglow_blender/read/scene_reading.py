@@ -3,7 +3,7 @@
 
 from functools import lru_cache
 from math import pi
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import bpy
 from mathutils import Matrix, Vector
@@ -14,10 +14,15 @@ from ..skin_settings import TISSUE_SLIDERS, as_typed
 from .measured_size import MEASURED_CONE, MEASURED_UNIT, scale_since_measured
 from .scene_lights import SceneLight, read_light
 from .scene_world import World, read_world
+from .shown_mesh import Frame, frame_of
 
 MM_PER_METER = 1000.0
 #: Custom property of a skin object that its node group reads: texels per mm, texel width, row, strength.
 ROW_PROPERTY = "skinglow_lut"
+#: Custom property of a skin object that light is solved in with coefficients instead of a tissue: three of absorption
+#: and three of reduced scattering, 1/mm, index of refraction, whether its surface is smooth.
+MEDIUM_PROPERTY = "skinglow_medium"
+MEDIUM_LENGTH = 8
 
 
 class Skin(NamedTuple):
@@ -26,7 +31,7 @@ class Skin(NamedTuple):
     name: str  #: of the object
     key: str  #: identity.key_of the object
     mode: str
-    weights: str  #: 'OBJECT' or 'SURFACE'; always 'OBJECT' where the mode is not physical
+    weights: str  #: 'OBJECT', 'SURFACE' or 'SHAPE'; always 'OBJECT' where the mode is not physical
     live: bool
     strength: float
     base: tuple  #: key of the base lookup (_base_key)
@@ -36,6 +41,17 @@ class Skin(NamedTuple):
     reference: str  #: key of the object whose origin or bone is that point, or ""
     world_size: float  #: edge length of the object's unit cube in the world, scene units
     surface: "SurfaceBounds | None"  #: needed for light per pixel only
+    shape: "ShapeSettings | None" = None  #: needed for light through the shape only
+
+
+class ShapeSettings(NamedTuple):
+    """What light through the shape of a skin depends on, besides its mesh."""
+
+    cell_mm: float
+    reentries: int
+    unit_mm: float  #: as its thickness was measured
+    medium: tuple[float, ...] | None  #: MEDIUM_PROPERTY; None: the tissue of the sliders
+    frame: Frame
 
 
 class SurfaceBounds(NamedTuple):
@@ -53,6 +69,7 @@ class SceneReading(NamedTuple):
     lights: list[SceneLight]
     skins: list[tuple[bpy.types.Object, Skin]]  #: with their original objects; invalid after undo or load
     world: World | None
+    occluders: Any = None  #: table.occlusion.Traced; None: nothing stands in the way of light
 
 
 def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
@@ -124,7 +141,25 @@ def _read_skin(obj: bpy.types.Object, settings: bpy.types.PropertyGroup, matrix:
         point=_reference_point(obj, settings, reference, rows),
         reference=_key_of(settings.reference_object) if reference == "OBJECT" else "",
         world_size=world_size,
-        surface=None if weights == "OBJECT" else _surface_bounds(obj, matrix, world_size),
+        surface=_surface_bounds(obj, matrix, world_size) if weights == "SURFACE" else None,
+        shape=_shape_settings(obj, matrix) if weights == "SHAPE" else None,
+    )
+
+
+def lit_per_pixel(skin: Skin, obj: bpy.types.Object, matrix: Matrix) -> Skin:
+    """The same skin where its light cannot be shown through its shape."""
+    return skin._replace(weights="SURFACE", surface=_surface_bounds(obj, matrix, skin.world_size), shape=None)
+
+
+def _shape_settings(obj: bpy.types.Object, matrix: Matrix) -> ShapeSettings:
+    settings = obj.skinglow
+    medium = tuple(obj.get(MEDIUM_PROPERTY, ()))
+    return ShapeSettings(
+        cell_mm=as_typed(settings.cell_mm),
+        reentries=settings.reentries,
+        unit_mm=obj.original.data.get(MEASURED_UNIT, MM_PER_METER),
+        medium=medium if len(medium) == MEDIUM_LENGTH else None,
+        frame=frame_of(matrix),
     )
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fraction of each light that other objects let through to a skin's far side (mode physical)."""
 
+from itertools import count
 from typing import Any, NamedTuple
 
 import bpy
@@ -13,6 +14,8 @@ from ..read.scene_lights import SceneLight, make_light
 from ..read.scene_reading import SceneReading, Skin
 from ..session import SESSION
 from .far_side import FarSide, far_side_of
+
+_versions = count()
 
 
 class _Body(NamedTuple):
@@ -32,10 +35,19 @@ class _Pass(NamedTuple):
     own: dict[str, int]  #: index of each such skin's own body, if it casts shadows
 
 
+class Traced(NamedTuple):
+    """What stands in the way of light."""
+
+    version: int  #: different for different contents
+    scene: Any  #: a skinglow.Occluders, in the world
+    own: dict[str, int]  #: index of each skin's own body, if it casts shadows
+
+
 class Occluders:
     """The occluders of one depsgraph mode, rebuilt only when one of them changes."""
 
     def __init__(self) -> None:
+        self.version = -1
         self.meshes = MeshCache()
         self.bodies: list[_Body] | None = None
         self.scene: Any = None  #: a skinglow.Occluders
@@ -52,7 +64,7 @@ class Occluders:
             meshes.append((arrays.vertices @ matrix[:3, :3].T + matrix[:3, 3], arrays.triangles))
         # Rays are traced in single precision, which is finest about the origin: put that where the skins are.
         self.scene = core().Occluders(meshes, near.mean(axis=0) if near is not None else None)
-        self.bodies = found.bodies
+        self.bodies, self.version = found.bodies, next(_versions)
 
 
 def forget(mode: str | None = None) -> None:
@@ -73,10 +85,10 @@ def with_visible_fractions(
         forget()
         return reading
     requested = {skin.key: skin for _obj, skin in reading.skins if skin.mode == "PHYSICAL"}
-    if not requested or not reading.lights:
+    if not requested or not (reading.lights or any(skin.shape is not None for skin in requested.values())):
         return reading
     try:
-        fractions = _visible_fractions(requested, reading.lights, depsgraph)
+        fractions, traced = _visible_fractions(requested, reading.lights, depsgraph)
     except (SkinError, ValueError, RuntimeError, MemoryError) as error:
         forget(depsgraph.mode)
         faults.update(
@@ -87,13 +99,13 @@ def with_visible_fractions(
         light._replace(visible={key: row[i] for key, row in fractions.items()})
         for i, light in enumerate(reading.lights)
     ]
-    return reading._replace(lights=lights)
+    return reading._replace(lights=lights, occluders=traced)
 
 
 def _visible_fractions(
     skins: dict[str, Skin], lights: list[SceneLight], depsgraph: bpy.types.Depsgraph
-) -> dict[str, list[float]]:
-    """For each skin one fraction per light, 0 to 1."""
+) -> tuple[dict[str, list[float]], Traced]:
+    """For each skin one fraction per light, 0 to 1, and what stands in the way."""
     if not hasattr(core(), "Occluders"):
         raise SkinError("this build of the core was made without Embree and traces no rays; turn Occlusion off")
     occluders = SESSION.occluders.setdefault(depsgraph.mode, Occluders())
@@ -115,7 +127,7 @@ def _visible_fractions(
             for i, fraction in zip(traced, visible, strict=True):
                 row[i] = float(fraction)
         fractions[key] = row
-    return fractions
+    return fractions, Traced(occluders.version, occluders.scene, found.own)
 
 
 def _read_pass(depsgraph: bpy.types.Depsgraph, skins: dict[str, Skin], cache: MeshCache) -> _Pass:

@@ -41,8 +41,10 @@ class Signature(NamedTuple):
     point: tuple | None = None
     weights: str | None = None
     surface: tuple | None = None
+    shape: tuple | None = None
     world: tuple | None = None
     lights: tuple = ()
+    mesh: int | None = None  #: version of the evaluated mesh, where light goes through its shape
 
 
 def signature_of(skin: Skin, lights: list[SceneLight], world: World | None) -> Signature:
@@ -53,7 +55,7 @@ def signature_of(skin: Skin, lights: list[SceneLight], world: World | None) -> S
     if skin.mode == "PAPER":
         return Signature(skin.mode, skin.base, skin.blood_weight, skin.attenuation, skin.point, lights=signatures)
     world_light = world_irradiance(world)
-    if skin.surface is not None and world is not None:
+    if (skin.surface is not None or skin.shape is not None) and world is not None:
         world_light = tuple(world.environment.coefficients.ravel())
     return Signature(
         skin.mode,
@@ -61,6 +63,7 @@ def signature_of(skin: Skin, lights: list[SceneLight], world: World | None) -> S
         point=skin.point,
         weights=skin.weights,
         surface=skin.surface,
+        shape=skin.shape,
         world=world_light,
         lights=signatures,
     )

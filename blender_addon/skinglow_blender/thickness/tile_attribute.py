@@ -11,9 +11,12 @@ import numpy as np
 
 from ..errors import core
 from ..read.measured_geometry import unit_mm
+from ..read.shown_mesh import TEXEL_ATTRIBUTE
+from ..read.shown_mesh import corner_texels as texels_of
 from .thickness_attribute import SUMMARY, check_local, read
 
-TEXEL_ATTRIBUTE = "skinglow_texel"
+__all__ = ["TEXEL_ATTRIBUTE", "ensure_tiles", "is_current", "is_of_this_mesh", "remove_tiles", "rows_of", "texels_of"]
+
 #: Mesh property: digest of faces and corners, rows, number of tiles, spacing in mm, and what they were made for.
 TILES_OF_MESH = "skinglow_tiles"
 #: Skin up to this thickness, mm, gets tiles: light does not come through thicker flesh (skinglow.Shape).
@@ -81,16 +84,6 @@ def rows_of(mesh: bpy.types.Mesh) -> int:
     """The rows of a mesh's tiles; 0 if it has none."""
     stored = mesh.get(TILES_OF_MESH)
     return int(stored["rows"]) if stored is not None else 0
-
-
-def texels_of(mesh: bpy.types.Mesh) -> np.ndarray | None:
-    """Texel x, y and 1 + tile at each corner, (c, 3) float32, of an evaluated mesh too; None: it has none."""
-    attribute = mesh.attributes.get(TEXEL_ATTRIBUTE)
-    if attribute is None or (attribute.domain, len(attribute.data)) != ("CORNER", len(mesh.loops)):
-        return None
-    values = np.empty(3 * len(mesh.loops), np.float32)
-    attribute.data.foreach_get("vector", values)
-    return values.reshape(-1, 3)
 
 
 def remove_tiles(mesh: bpy.types.Mesh) -> None:

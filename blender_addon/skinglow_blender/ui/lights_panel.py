@@ -5,8 +5,10 @@ import bpy
 
 from ..commands.skin import table_of
 from ..identity import key_of
+from ..live.shape_update import ShapeReport, shape_report
 from . import light_list
 from .locations import InObjectProperties, InSidebar, SkinPanel
+from .progress_bar import draw_progress
 from .wrapped_text import draw_wrapped
 
 MIN_ROWS = 4
@@ -99,11 +101,41 @@ def _draw_lighting(layout: bpy.types.UILayout, obj: bpy.types.Object, context: b
     column = layout.column(align=True)
     column.use_property_split, column.use_property_decorate = True, False
     column.prop(obj.skinglow, "weights")
+    report = shape_report(obj)
+    if report is not None:
+        column.prop(obj.skinglow, "cell_mm")
+        column.prop(obj.skinglow, "reentries")
+        _draw_shape(column, report, context)
     table = table_of(obj, context.view_layer.depsgraph)
     if table is not None and table.bound is not None:
         off = f"up to {table.bound:.0%}" if table.bound < 1.0 else "more than 100%"
         draw_wrapped(column, f"Per Object would be {off} off here", context, "INFO")
     column.prop(context.scene.skinglow, "occlusion")
+
+
+def _draw_shape(column: bpy.types.UILayout, report: ShapeReport, context: bpy.types.Context) -> None:
+    """How the light of a skin through its shape was found."""
+    if report.reason is not None:
+        draw_wrapped(column, f"Lit per pixel: {report.reason.why}", context, "ERROR")
+        return
+    if report.progress is not None:
+        draw_progress(column.row(), f"Solving: {report.progress:.0%}", report.progress)
+    if report.shown == "TABLE":
+        draw_wrapped(column, "The lookup by thickness stands in until light is solved", context, "INFO")
+        return
+    solved = f"{report.ready_parts} of {report.parts} thin parts solved"
+    if report.ready_parts < report.parts:
+        solved += ", no light falls on the others"
+    draw_wrapped(column, solved, context, "MESH_DATA")
+    column.label(
+        text=f"{report.cells:,} cells, {report.bytes / 1e6:.0f} MB, {report.milliseconds:.0f} ms", icon="BLANK1"
+    )
+    if report.error:
+        error = ", ".join(f"{part:.0%}" for part in report.error)
+        column.label(text=f"Estimated error {error} (R, G, B)", icon="BLANK1")
+    if report.thick_points:
+        share = report.thick_points / report.points
+        draw_wrapped(column, f"{share:.0%} of the skin shown is too thick for light to come through", context, "BLANK1")
 
 
 def _draw_details(

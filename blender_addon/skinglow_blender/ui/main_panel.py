@@ -11,6 +11,7 @@ from . import freeze_panel, lights_panel, look_panel, lookup_table_panel, materi
 from .locations import ObjectProperties, Sidebar, is_skin
 from .lut_preview import icon_of
 from .material_panel import draw_shown_by
+from .progress_bar import draw_progress
 from .wrapped_text import draw_wrapped
 
 
@@ -79,10 +80,7 @@ def _draw_progress(layout: bpy.types.UILayout) -> None:
     measuring = SESSION.measuring
     row = layout.row(align=True)
     text = "Canceling" if measuring.canceled else f"Measuring: {measuring.done:.0%}"
-    if hasattr(row, "progress"):
-        row.progress(factor=measuring.done, text=text)
-    else:
-        row.label(text=text, icon="SORTTIME")
+    draw_progress(row, text, measuring.done)
     row.operator("skinglow.cancel_measuring", text="", icon="CANCEL")
 
 

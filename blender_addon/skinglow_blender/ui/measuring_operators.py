@@ -12,6 +12,7 @@ from ..session import SESSION
 from ..skin_settings import LIGHTINGS, MODES, PRESETS
 from ..thickness import thickness_attribute
 from ..thickness.measuring import Measuring
+from ..thickness.tile_attribute import ensure_tiles
 from . import slot_choice
 from .operators import SKIN, may_act, selected_meshes, selected_skins
 
@@ -170,7 +171,7 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
     )
 
     mode: EnumProperty(name="Mode", items=MODES, default="PHYSICAL", options={"SKIP_SAVE"})
-    weights: EnumProperty(name="Lighting", items=LIGHTINGS, default="OBJECT", options={"SKIP_SAVE"})
+    weights: EnumProperty(name="Lighting", items=LIGHTINGS, default="SHAPE", options={"SKIP_SAVE"})
     preset: EnumProperty(name="Preset", items=PRESETS[1:], default="LIGHT", options={"SKIP_SAVE"})
     unit_mm: FloatProperty(
         name="Unit",
@@ -214,16 +215,23 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
 
     def finish(self, _context: bpy.types.Context, names: list[str]) -> str:
         objects = [_object(name) for name in names]
-        states = [
-            skin.make_skin(obj, slots=slot_choice.chosen(self.slots, obj), **self._settings(obj)) for obj in objects
-        ]
+        states = [self._make(obj) for obj in objects]
         slot_choice.offer(self.slots, objects)
         return "; ".join(f"{s.name}: {s.thickness_mm[0]:.2f} to {s.thickness_mm[1]:.2f} mm thick" for s in states)
+
+    def _make(self, obj: bpy.types.Object) -> skin.SkinState:
+        settings = self._settings(obj)
+        state = skin.make_skin(obj, slots=slot_choice.chosen(self.slots, obj), **settings)
+        # Nobody asked for light through the shape of this one: it begins with what serves it.
+        is_asked = self.properties.is_property_set("weights") or "weights" in of_new_skins()
+        if "weights" in settings and not is_asked and state.shape is not None and state.shape.reason is not None:
+            state = skin.make_skin(obj, weights="OBJECT")
+        return state
 
     def _settings(self, obj: bpy.types.Object) -> dict[str, object]:
         """What was chosen in Adjust Last Operation; for a new skin, what the preferences say of the rest."""
         chosen = {name: getattr(self, name) for name in CHOICES if self.properties.is_property_set(name)}
-        return chosen if obj.skinglow.enabled else of_new_skins() | chosen
+        return chosen if obj.skinglow.enabled else {"weights": self.weights} | of_new_skins() | chosen
 
 
 class SKINGLOW_OT_measure_thickness(_MeasuringOperator, bpy.types.Operator):  # noqa: N801
@@ -245,9 +253,12 @@ class SKINGLOW_OT_measure_thickness(_MeasuringOperator, bpy.types.Operator):  # 
     def to_measure(self, context: bpy.types.Context) -> dict[str, Geometry]:
         return {o.name_full: read_geometry(o, context.scene) for o in self.targets(context)}
 
-    def finish(self, _context: bpy.types.Context, names: list[str]) -> str:
+    def finish(self, context: bpy.types.Context, names: list[str]) -> str:
         for name in names:
-            _object(name).update_tag(refresh={"OBJECT"})
+            obj = _object(name)
+            if obj.skinglow.weights == "SHAPE" and obj.skinglow.mode == "PHYSICAL":
+                ensure_tiles(obj, context.scene)
+            obj.update_tag(refresh={"OBJECT"})
         return "; ".join(f"{name}: {len(_object(name).data.vertices)} vertices measured" for name in names)
 
 

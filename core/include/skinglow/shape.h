@@ -146,6 +146,9 @@ class LitShape {
     /// @param colors  one per light, linear Rec.709, finite, 0 or more; instead of the lights' own
     std::vector<glm::dvec3> recolor(std::span<const glm::dvec3> colors,
                                     const ShapeProgress& progress = {}) const;
+    /// The same of transmitted().
+    std::vector<glm::dvec3> recolor_transmitted(std::span<const glm::dvec3> colors,
+                                                const ShapeProgress& progress = {}) const;
 
     /// The same light in another skin, in milliseconds and without solving: its spectrum is put together from
     /// what was solved for the tissue of the shape, see Shape::with_tissue.

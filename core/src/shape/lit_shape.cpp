@@ -16,6 +16,19 @@ constexpr int max_samples = 4096;
 constexpr double min_tolerance = 1e-6;
 constexpr double max_tolerance = 0.5;
 
+ShapeData::Colors recolored(const LitShapeData& lit, std::span<const glm::dvec3> colors,
+                            const ShapeProgress& progress) {
+    const std::size_t lights = lit.solved->rig.size();
+    if (colors.size() != lights) {
+        refuse_argument("colors", std::to_string(colors.size()) + " of them",
+                        "one for each of " + std::to_string(lights) + " lights");
+    }
+    for (std::size_t k = 0; k < colors.size(); ++k) require_not_negative(entry_name("colors", k), colors[k]);
+    // What is at hand is faster than starting a job.
+    if (!lit.is_each_solved()) run_or_cancel(progress, [&] { lit.solve_each(); });
+    return lit.sum(colors);
+}
+
 }  // namespace
 
 LitShape Shape::light(const PreparedRig& rig, const ShapeLightOptions& options,
@@ -77,14 +90,14 @@ std::vector<glm::dvec3> LitShape::per_light(const ShapeProgress& progress) const
 
 std::vector<glm::dvec3> LitShape::recolor(std::span<const glm::dvec3> colors,
                                           const ShapeProgress& progress) const {
-    if (colors.size() != lights()) {
-        refuse_argument("colors", std::to_string(colors.size()) + " of them",
-                        "one for each of " + std::to_string(lights()) + " lights");
-    }
-    for (std::size_t k = 0; k < colors.size(); ++k) require_not_negative(entry_name("colors", k), colors[k]);
-    // What is at hand is faster than starting a job.
-    if (!data_->is_each_solved()) run_or_cancel(progress, [&] { data_->solve_each(); });
-    return data_->shape->at_points(data_->sum(colors).exitance);
+    return data_->shape->at_points(recolored(*data_, colors, progress).exitance);
+}
+
+std::vector<glm::dvec3> LitShape::recolor_transmitted(std::span<const glm::dvec3> colors,
+                                                      const ShapeProgress& progress) const {
+    ShapeData::Colors found = recolored(*data_, colors, progress);
+    keep_transmitted(found);
+    return data_->shape->at_points(found.reflected);
 }
 
 LitShape LitShape::with_tissue(const Tissue& tissue) const {

@@ -9,6 +9,11 @@
 
 namespace skinglow::detail {
 
+void keep_transmitted(ShapeData::Colors& found) {
+    for (std::size_t s = 0; s < found.exitance.size(); ++s)
+        found.reflected[s] = glm::max(found.exitance[s] - found.reflected[s], glm::dvec3(0.0));
+}
+
 LitShapeData::LitShapeData(std::shared_ptr<const SolvedLight> light, std::shared_ptr<const ShapeData> colors,
                            const LitShapeData* previous)
     : solved(std::move(light)), shape(std::move(colors)) {
@@ -31,8 +36,7 @@ LitShapeData::LitShapeData(std::shared_ptr<const SolvedLight> light, std::shared
     } else {
         found = shape->colors(shape->sum(solved->parts()));
     }
-    for (std::size_t s = 0; s < found.exitance.size(); ++s)
-        found.reflected[s] = glm::max(found.exitance[s] - found.reflected[s], glm::dvec3(0.0));
+    keep_transmitted(found);
     exitance = shape->at_points(found.exitance);
     transmitted = shape->at_points(found.reflected);
 }

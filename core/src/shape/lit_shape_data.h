@@ -43,4 +43,7 @@ struct LitShapeData {
     std::shared_ptr<const WorldColors> world_;  ///< null: black
 };
 
+/// Puts what came through, the exitance less what is reflected, at least 0, into the place of what is reflected.
+void keep_transmitted(ShapeData::Colors& found);
+
 }  // namespace skinglow::detail

@@ -1,0 +1,142 @@
+"""How fast light through the shape of a skin is in Blender: two ears of a scan and four lights.
+
+Run in a Blender whose Python finds skinglow; needs ../shared/data/shape/lps_mesh.npz:
+
+    python tests/benchmarks/blender_shape.py            # a bpy wheel
+
+Medians in milliseconds, of the main thread where it says so, and of one answer of the thread:
+    update    all of an update where nothing changed (main thread)
+    recolor   the colors and powers of all lights changed, from the sums to the written image (main thread)
+    request   what a moved light costs the main thread
+    coarse    the first answer to a moved light
+    full      the full answer to it
+    tiles     pixels of an answer, written (main thread)
+    deformed  a mesh that was deformed: everything anew, as in each frame of an animation of it
+"""
+
+import json
+import os
+import statistics
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "blender_addon"))
+if os.environ.get("SKINGLOW_SITE"):
+    sys.path.append(os.environ["SKINGLOW_SITE"])
+
+import bpy  # noqa: E402
+import numpy as np  # noqa: E402
+import skinglow_blender as sb  # noqa: E402
+from mathutils import Vector  # noqa: E402
+from skinglow_blender.identity import key_of  # noqa: E402
+from skinglow_blender.live import shape_answers, shape_update  # noqa: E402
+from skinglow_blender.session import SESSION  # noqa: E402
+from skinglow_blender.table import shape_light  # noqa: E402
+
+MESH = ROOT.parent / "shared" / "data" / "shape" / "lps_mesh.npz"
+CHANGES = 9
+
+
+def build() -> tuple[bpy.types.Object, list[bpy.types.Object]]:
+    """The head in mm and four lights about it, of which two are behind it."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    mesh = np.load(MESH)
+    data = bpy.data.meshes.new("Head")
+    data.from_pydata(mesh["vertices_mm"].astype(float).tolist(), [], mesh["triangles"].tolist())
+    head = bpy.data.objects.new("Head", data)
+    collection = bpy.context.scene.collection
+    collection.objects.link(head)
+    lights = []
+    for i, place in enumerate(((-150, 400, 100), (150, 400, 100), (-500, -100, 200), (400, -300, 50))):
+        light = bpy.data.lights.new(f"Light {i}", ("SPOT", "POINT", "AREA", "SUN")[i])
+        light.energy = 3.0 if light.type == "SUN" else 1e6
+        obj = bpy.data.objects.new(f"Light {i}", light)
+        obj.location = place
+        obj.rotation_euler = Vector(-np.array(place)).to_track_quat("-Z", "Y").to_euler()
+        collection.objects.link(obj)
+        lights.append(obj)
+    return head, lights
+
+
+def median(function: Callable[[int], object], changes: int = CHANGES) -> float:
+    """Milliseconds."""
+    found = []
+    for i in range(changes):
+        started = time.perf_counter()
+        function(i)
+        found.append(1000.0 * (time.perf_counter() - started))
+    return statistics.median(found)
+
+
+def main() -> None:
+    head, lights = build()
+    started = time.perf_counter()
+    shape_update.is_synchronous = lambda _mode: False
+    sb.make_skin(head, unit_mm=1.0, weights="object")
+    measured = time.perf_counter()
+    sb.make_skin(head, weights="shape")
+    made = time.perf_counter()
+    wait()
+    solved = time.perf_counter()
+    state = shape_update.state_of(key_of(head), "VIEWPORT")
+    graph = bpy.context.evaluated_depsgraph_get()
+    figures: dict[str, object] = {"measure_s": measured - started, "first_picture_s": made - measured}
+    figures["first_full_s"] = solved - made
+    figures["targets"], figures["rows"] = len(state.tiles.targets.points), state.tiles.rows
+    figures["update"] = median(lambda _i: sb.update(graph))
+
+    def recolor(i: int) -> None:
+        for light in lights:
+            light.data.color = (0.1 * i, 0.5, 1.0 - 0.1 * i)
+        bpy.context.view_layer.update()
+
+    # What a handler does is in view_layer.update(), with Blender's own evaluation.
+    figures["recolor"] = median(recolor)
+    wait()
+
+    def move(i: int) -> None:
+        lights[0].location.x += 1.0 + i
+        bpy.context.view_layer.update()
+
+    figures["request"] = median(move)
+    wait()
+    body = state.body
+
+    def solved_by(i: int, full: bool) -> None:
+        lights[0].location.x += 2.0 + i
+        bpy.context.view_layer.update()
+        SESSION.shape_worker.drop()
+        shape_light._solved(body.shape(), body, state.light, lambda _f: True, full=full)
+
+    figures["coarse"] = median(lambda i: solved_by(i, full=False))
+    figures["full"] = median(lambda i: solved_by(i, full=True))
+    bpy.context.view_layer.update()
+    figures["tiles"] = median(lambda _i: state.tiles.pixels(state.shown.radiance))
+    report = sb.state_of(head, graph).shape
+    figures |= {"parts": report.parts, "solved": report.ready_parts, "cells": report.cells, "MB": report.bytes / 1e6}
+
+    def deform(i: int) -> None:
+        head.data.vertices[0].co.x += 0.01 * (1 + i)
+        head.data.update()
+        bpy.context.view_layer.update()
+        wait()
+
+    figures["deformed"] = median(deform, 1)
+    for name, value in figures.items():
+        print(f"{name:18} {value:.6g}")
+    print(json.dumps(figures))
+
+
+def wait() -> None:
+    """Until the thread has nothing to do."""
+    while SESSION.shape_worker.is_busy:
+        shape_answers.take_answers()
+        time.sleep(0.002)
+
+
+main()
+sys.stdout.flush()
+os._exit(0)  # the 4.5 wheel hangs otherwise

@@ -1,0 +1,114 @@
+"""What a window does, where a thread solves the light: here its answers are taken by hand."""
+
+import time
+from contextlib import contextmanager
+
+import numpy as np
+import skinglow_blender as sb
+from skinglow_blender.identity import key_of
+from skinglow_blender.live import shape_answers, shape_update
+from skinglow_blender.session import SESSION
+
+from inside.scenes import depsgraph
+from inside.shape_scenes import assert_through, lobe, shape_skin, shown, sun, turn
+
+
+@contextmanager
+def in_a_window():
+    """Updates wait for nothing."""
+    waits = shape_update.is_synchronous
+    shape_update.is_synchronous = lambda mode: mode == "RENDER"
+    try:
+        yield
+    finally:
+        shape_update.is_synchronous = waits
+        shape_answers.stop()
+
+
+def report(obj):
+    return sb.state_of(obj, depsgraph()).shape
+
+
+def wait_for(obj, *kinds, seconds=60.0):
+    """What is shown until the thread has nothing to do, in order."""
+    seen, end = [], time.monotonic() + seconds
+    while not seen or SESSION.shape_worker.is_busy:
+        shape_answers.take_answers()
+        kind = report(obj).shown
+        if kind not in seen[-1:]:
+            seen.append(kind)
+        assert time.monotonic() < end, seen
+        time.sleep(0.002)
+    if kinds:
+        assert seen[-1] == kinds[-1] and set(seen) <= set(kinds), (seen, kinds)
+    return seen
+
+
+def pixels(obj):
+    return shown(obj, depsgraph(), int(obj.data["skinglow_tiles"]["rows"])).copy()
+
+
+def check_the_table_stands_in_and_then_light_is_solved(_work):
+    key = sun()
+    obj = lobe()
+    with in_a_window():
+        shape_skin(obj)
+        first = pixels(obj)
+        assert report(obj).shown == "TABLE" and first[..., :3].max() > 0.0
+        wait_for(obj, "TABLE", "COARSE", "FULL")
+        assert_through(obj)
+        state = report(obj)
+        assert 0 < state.ready_parts <= state.parts and state.cells > 0 and state.bytes > 0
+        assert len(state.error) == 3 and state.progress is None
+        # A moved light: what was shown stays until there is something better.
+        before = pixels(obj)
+        turn(key, (-0.6, 0.3, 1.0))
+        depsgraph()
+        np.testing.assert_array_equal(pixels(obj), before)
+        wait_for(obj, "COARSE", "FULL")
+        assert_through(obj)
+
+
+def check_colors_and_sliders_show_at_once(_work):
+    key = sun()
+    obj = lobe()
+    with in_a_window():
+        shape_skin(obj)
+        wait_for(obj)
+        key.data.color, key.data.energy = (1.0, 0.25, 0.1), 6.0
+        assert_through(obj, 0.01)
+        assert report(obj).shown == "COARSE" and SESSION.shape_worker.is_busy
+        key.data.energy = 3.0
+        assert_through(obj, 0.01)
+        wait_for(obj, "COARSE", "FULL")
+        assert_through(obj)
+        before = pixels(obj)
+        obj.skinglow.blood_fraction = 0.02
+        depsgraph()
+        at_once = pixels(obj)
+        wait_for(obj, "COARSE", "FULL")
+        solved = pixels(obj)
+        difference = np.abs(solved - at_once)[..., :3].mean()
+        assert difference < 0.3 * np.abs(solved - before)[..., :3].mean()
+
+
+def check_the_newest_request_wins_and_faults_are_told(_work):
+    key = sun()
+    obj = lobe()
+    with in_a_window():
+        shape_skin(obj)
+        for i in range(6):
+            turn(key, (0.1 * i, 0.3, 1.0))
+            depsgraph()
+        wait_for(obj)
+        assert_through(obj)
+        # Undo and what else replaces all data: nothing is computed again.
+        answer = SESSION.shapes[key_of(obj), "VIEWPORT"].answer
+        before = pixels(obj)
+        SESSION.forget()
+        sb.update(depsgraph())
+        assert SESSION.shapes[key_of(obj), "VIEWPORT"].answer is answer and not SESSION.shape_worker.is_busy
+        np.testing.assert_array_equal(pixels(obj), before)
+        # A render waits for its own light, and leaves that of the viewport.
+        sb.remove_skin(obj)
+        assert not SESSION.shapes and not SESSION.shape_worker.is_busy

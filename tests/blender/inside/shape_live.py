@@ -1,0 +1,58 @@
+"""Light through the shape follows what people do: what the tiles show equals a fresh computation."""
+
+import skinglow as sg
+import skinglow_blender as sb
+
+from inside.scenes import add_light, depsgraph
+from inside.shape_scenes import assert_through, assert_through_turned, lobe, shape_skin, sun, turn
+
+
+def check_lights_and_places(_work):
+    key = sun()
+    obj = lobe()
+    state = shape_skin(obj)
+    assert state.weights == "SHAPE" and state.shape.shown == "FULL" and state.shape.ready_parts > 0, state
+    same = assert_through(obj)
+    turn(key, (-0.5, 0.3, 1.0))
+    sb.update(depsgraph())
+    assert_through(obj)
+    key.data.color, key.data.energy = (1.0, 0.2, 0.1), 7.0
+    assert_through(obj)
+    lamp = add_light("Lamp", location=(3.0, 2.0, -9.0), color=(0.1, 0.4, 1.0), energy=2000.0)
+    assert_through(obj)
+    obj.location, obj.rotation_euler = (10000.0, -200.0, 30.0), (0.4, 0.2, -0.3)
+    lamp.location = (10003.0, -198.0, 21.0)
+    turned = assert_through_turned(obj)
+    obj.scale = (1.2, -0.9, 1.0)
+    mirrored = assert_through_turned(obj)
+    assert [r.why for r in sb.update(depsgraph())] == []
+    return {"same": same, "turned": turned, "mirrored": mirrored}
+
+
+def check_modifiers_and_pose(_work):
+    sun()
+    obj = lobe(levels=2)
+    shape_skin(obj)
+    assert_through(obj)
+    obj.modifiers.new("Finer", "SUBSURF").levels = 1
+    assert_through(obj)
+    bend = obj.modifiers.new("Bend", "SIMPLE_DEFORM")
+    bend.deform_method, bend.angle, bend.deform_axis = "BEND", 0.6, "Z"
+    assert_through(obj)
+
+
+def check_tissue_and_medium(_work):
+    sun()
+    obj = lobe()
+    shape_skin(obj)
+    obj.skinglow.blood_fraction = 0.02
+    tissue = sg.TISSUE_PRESETS["light"]
+    fields = {name: getattr(tissue, name) for name in sg.TISSUE_PARAMETERS}
+    assert_through(obj, flesh={"tissue": sg.Tissue(**{**fields, "blood_fraction": 0.02})})
+    coefficients = {"absorption": (0.03, 0.17, 0.48), "reduced_scattering": (0.7, 0.9, 1.0)}
+    sb.set_medium(obj, **coefficients, refractive_index=1.0)
+    assert_through(obj, flesh={**coefficients, "refractive_index": 1.0})
+    sb.set_medium(obj)
+    obj.skinglow.preset = "LIGHT"
+    obj.skinglow.cell_mm, obj.skinglow.reentries = 1.3, 0
+    assert_through(obj, cell_mm=1.3, reentries=0)

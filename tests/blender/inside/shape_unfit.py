@@ -1,0 +1,79 @@
+"""Skins whose tiles cannot show their light: lit per pixel, said in words, and repaired."""
+
+import bpy
+import skinglow_blender as sb
+
+from inside.scenes import depsgraph
+from inside.shape_scenes import assert_through, lobe, shape_skin, sun
+
+
+def faults(obj):
+    return " ".join(str(fault) for fault in sb.health(obj))
+
+
+def is_through(obj):
+    return obj.get("skinglow_tiles", (0.0,) * 4)[3] == 1.0
+
+
+def check_modifiers_that_do_not_keep_faces(_work):
+    sun()
+    obj = lobe(levels=2)
+    shape_skin(obj)
+    assert is_through(obj) and not faults(obj)
+    for kind, word, settings in (
+        ("MIRROR", "Mirror", {}),
+        ("REMESH", "Remesh", {"voxel_size": 0.7}),
+    ):
+        modifier = obj.modifiers.new(kind, kind)
+        for name, value in settings.items():
+            setattr(modifier, name, value)
+        depsgraph()
+        assert word in faults(obj) and not is_through(obj), (kind, faults(obj))
+        assert sb.state_of(obj, depsgraph()).shape.reason is not None
+        obj.modifiers.remove(modifier)
+        depsgraph()
+        assert is_through(obj) and not faults(obj), kind
+    assert_through(obj)
+
+
+def check_edited_faces(_work):
+    sun()
+    obj = lobe(levels=2)
+    shape_skin(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide(number_cuts=1)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    depsgraph()
+    assert not is_through(obj) and "edited" in faults(obj), faults(obj)
+    sb.make_skin(obj, thickness=[3.0] * len(obj.data.vertices))
+    assert is_through(obj)
+    assert_through(obj)
+
+
+def check_lighting_is_chosen_and_left(_work):
+    """A skin that becomes lit through its shape gets tiles; two skins of one material are lit in two ways."""
+    sun()
+    obj = lobe(levels=2)
+    shape_skin(obj, weights="object")
+    assert "skinglow_tiles" not in obj.data
+    obj.skinglow.weights = "SHAPE"
+    depsgraph()
+    sb.update(depsgraph())
+    assert_through(obj)
+    other = lobe("Other", obj.material_slots[0].material, levels=2)
+    other.location.z = 50.0
+    shape_skin(other, weights="surface")
+    assert is_through(obj) and not is_through(other)
+    assert_through(obj)
+    other.skinglow.weights = "SHAPE"
+    depsgraph()
+    sb.update(depsgraph())
+    assert_through(other)
+    obj.skinglow.weights = other.skinglow.weights = "OBJECT"
+    depsgraph()
+    assert not is_through(obj)
+    sb.remove_skin(obj)
+    sb.remove_skin(other)
+    assert not [key for each in (obj, obj.data) for key in each.keys() if "skinglow" in key and key != "skinglow"]
+    assert not [image.name for image in bpy.data.images if "Skinglow" in image.name]
