@@ -103,7 +103,7 @@ def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
     for obj in depsgraph.objects:
         kind = obj.type
         take(obj, kind, obj, None)
-        may_instance = may_instance or obj.is_instancer or (kind != "LIGHT" and has_nodes(obj))
+        may_instance = may_instance or obj.is_instancer or (kind != "LIGHT" and has_geometry_nodes(obj))
     if may_instance:
         for instance in depsgraph.object_instances:
             if instance.is_instance:
@@ -111,7 +111,7 @@ def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
     return SceneReading(lights, skins, read_world(depsgraph))
 
 
-def has_nodes(obj: bpy.types.Object) -> bool:
+def has_geometry_nodes(obj: bpy.types.Object) -> bool:
     """Whether an object has a modifier with geometry nodes, which may instance anything."""
     modifiers = obj.modifiers
     return bool(modifiers) and any(modifier.type == "NODES" for modifier in modifiers)
