@@ -35,9 +35,9 @@ def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
         return
     moved = changes.materials and follow_materials()
     follow_weights(changes.reshaped)
-    known_images = [name for name in changes.images if world_image.is_known(name)]
-    for name in known_images:
-        world_image.forget(name)
+    known_images = [key for key in changes.images if world_image.is_known(key)]
+    for key in known_images:
+        world_image.forget(key)
     if not known_images and not changes.skins and not moved:
         return
     if update_shown(depsgraph):

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import bpy
 
-from ..identity import key_of
+from ..identity import key_of, lasting_key_of
 from ..read.scene_reading import has_geometry_nodes
 from ..session import SESSION
 from ..show.group_following import may_change_groups
@@ -23,7 +23,7 @@ class Changes(NamedTuple):
 
     skins: bool  #: a light, a skin or the world may have changed, or what instances them
     materials: bool  #: a skin may have got another material
-    images: frozenset[str]  #: names of the images that changed
+    images: frozenset[str]  #: lasting_key_of the images that changed
     reshaped: tuple[bpy.types.Object, ...]  #: the skins whose mesh, or what is painted on it, changed
 
 
@@ -46,7 +46,7 @@ def changes_of(depsgraph: bpy.types.Depsgraph) -> Changes:
         skins = skins or type(changed).__name__ not in IRRELEVANT
         materials = materials or isinstance(changed, bpy.types.Material)
         if isinstance(changed, bpy.types.Image):
-            images.add(changed.original.name_full)
+            images.add(lasting_key_of(changed))
     # Blender 3.4 reports changed images without saying which.
     return Changes(skins or number == 0, materials, frozenset(images), tuple(reshaped))
 
