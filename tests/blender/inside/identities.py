@@ -90,6 +90,30 @@ def check_light_linking_by_object(work):
     assert sb.light_report(linked, graph)[0]["reason"] == "light linking excludes this object"
 
 
+def check_hidden_light_of_the_name_of_a_linked_one(work):
+    """Each is listed with what is true of it."""
+    linked_copy(work, "Head")
+    with bpy.data.libraries.load(str(work / "library.blend"), link=True) as (_source, target):
+        target.objects = ["Other light"]
+    shown, hidden, apart = link(target.objects[0]), add_light("Other light"), bpy.data.collections.new("Apart")
+    assert shown.name == hidden.name
+    obj = patch("Local")
+    sb.make_skin(obj, thickness=THIN, mode="physical")
+    hidden.hide_set(True)
+
+    def reasons():
+        rows = sb.light_report(obj, depsgraph())
+        assert [row["name"] for row in rows] == [shown.name] * 2
+        return {row["object"]: row["reason"] for row in rows}
+
+    assert reasons() == {key_of(shown): "", key_of(hidden): "hidden in the viewport"}
+    bpy.context.scene.collection.children.link(apart)
+    apart.objects.link(hidden)
+    bpy.context.scene.collection.objects.unlink(hidden)
+    bpy.context.view_layer.layer_collection.children["Apart"].exclude = True
+    assert reasons()[key_of(hidden)] == "its collection is hidden or excluded from the view layer"
+
+
 def check_rig_named_like_an_instance(work):
     """A light whose name contains " in ", next to one that is the first part of it."""
     obj = patch()
