@@ -44,6 +44,11 @@ class TileAtlas(PairContents):
         super().__init__(TILES, group, mode)
         self._written: dict[str, tuple[int, object]] = {}
 
+    def take_over(self, smaller: "TileAtlas") -> None:
+        """Takes what these images held before they were enlarged: not every skin is put again at once."""
+        self.pixels[: len(smaller.pixels)] = smaller.pixels
+        self._written, self.is_dirty = smaller._written, True
+
     def holds(self, key: str, first_row: int, source: object) -> bool:
         """Whether a skin's rows hold exactly what this object was put for."""
         row, written = self._written.get(key, (None, None))
@@ -57,11 +62,14 @@ class TileAtlas(PairContents):
 
 
 def tile_atlas(group: bpy.types.NodeTree, mode: str) -> TileAtlas:
-    """The cached contents of a group's tile images; new and empty where these changed."""
+    """The cached contents of a group's tile images; new and empty where these are others."""
     key = (key_of(group), mode)
-    atlas = SESSION.tile_atlases.get(key)
-    if atlas is None or not atlas.fits(group):
-        atlas = SESSION.tile_atlases[key] = TileAtlas(group, mode)
+    known = SESSION.tile_atlases.get(key)
+    if known is not None and known.fits(group):
+        return known
+    atlas = SESSION.tile_atlases[key] = TileAtlas(group, mode)
+    if known is not None and known.is_of_same_images(atlas) and len(known.pixels) < len(atlas.pixels):
+        atlas.take_over(known)
     return atlas
 
 
