@@ -19,9 +19,12 @@ from .lut_image import TILE_NODES_PROPERTY
 
 #: The node of the inner group that reads a texel, and the image node in it.
 TILE_NODE, TILE_IMAGE_NODE = "Tile texel", "Tile"
-#: Custom property of a skin object that its node group reads: first row, width and height of a texel, and whether its
-#: tiles are shown, 1 or 0.
+#: Custom property of a skin object: first row, width and height of a texel, and whether its tiles are shown, 1 or 0.
 TILE_PROPERTY = "skinglow_tiles"
+#: The same as its node group reads it, with as little arithmetic as can be: (u, v) of the center of its first texel, 0,
+#: and whether tiles are shown; width and height of a texel, 0.
+FIRST_TEXEL_PROPERTY, TEXEL_SIZE_PROPERTY = "skinglow_first_texel", "skinglow_texel_size"
+OBJECT_PROPERTIES = (TILE_PROPERTY, FIRST_TEXEL_PROPERTY, TEXEL_SIZE_PROPERTY)
 DARK = (0.0, 0.0, 0.0, 0.0)
 
 
@@ -144,9 +147,12 @@ def show_tiles(obj: bpy.types.Object, atlas: TileAtlas | None, first_row: int = 
 def set_tile_property(
     obj: bpy.types.Object, wanted: tuple[float, float, float, float], during_render: bool = False
 ) -> None:
-    """Writes the property if it differs, and has Blender evaluate the object again."""
+    """Writes the properties if they differ, and has Blender evaluate the object again."""
     if tuple(obj.get(TILE_PROPERTY, DARK)) != wanted:
+        first_row, width, height, use = wanted
         obj[TILE_PROPERTY] = wanted
+        obj[FIRST_TEXEL_PROPERTY] = 0.5 * width, (first_row + 0.5) * height, 0.0, use
+        obj[TEXEL_SIZE_PROPERTY] = width, height, 0.0
         # In an animation render the object itself is at the frame where that began: its keys have to be evaluated
         # again. In the viewport that would take back what was edited and not keyed yet.
         obj.update_tag(refresh={"OBJECT", "TIME"} if during_render else {"OBJECT"})
