@@ -98,8 +98,8 @@ def test_no_import_of_the_addon_runs_to_a_higher_floor(floor: str) -> None:
 
 #: Modules by which a program uses the network, or starts another program that might.
 NETWORK = set(
-    "asyncio email ftplib http httpx imaplib multiprocessing poplib requests select selectors smtplib socket socketserver ssl "
-    "subprocess telnetlib urllib urllib3 webbrowser xmlrpc".split()
+    "asyncio email ftplib http httpx imaplib multiprocessing poplib requests select selectors smtplib socket "
+    "socketserver ssl subprocess telnetlib urllib urllib3 webbrowser xmlrpc".split()
 )
 
 
