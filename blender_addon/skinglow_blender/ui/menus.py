@@ -35,6 +35,7 @@ def _in_object_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
 
 def _in_export_menu(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
     self.layout.operator("skinglow.export_povray", text="Skin Glow for POV-Ray (.pov)")
+    self.layout.operator("skinglow.write_openjd", text="Skin Glow Job for Render Farms (OpenJD)")
 
 
 def _in_node_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
