@@ -1,6 +1,7 @@
 """Jobs for render farms: what is written, and what is refused before anything is."""
 
 import json
+import types
 from pathlib import Path
 
 import bpy
@@ -8,6 +9,7 @@ import skinglow_blender as sb
 from skinglow_blender.batch.files import input_files
 from skinglow_blender.farm import openjd
 from skinglow_blender.farm.openjd import _ranges
+from skinglow_blender.ui import farm_operators
 
 from inside.batch_studio import raises, studio
 
@@ -122,6 +124,29 @@ def check_operator(work):
     except RuntimeError as error:
         assert "freeze them first" in str(error)
     assert not Path(work / "frozen").exists()
+
+
+def check_operator_tells_what_workers_need(work):
+    class Layout:
+        """Keeps what is drawn."""
+
+        def __init__(self):
+            self.texts, self.names = [], []
+
+        def prop(self, _owner, name, **_named):
+            self.names.append(name)
+
+        def label(self, text, **_named):
+            self.texts.append(text)
+
+    for light, need, rigs in (
+        ("LIVE", "Each worker needs Blender with", 1),
+        ("FROZEN", "Workers need Blender alone", 0),
+    ):
+        operator = types.SimpleNamespace(layout=Layout(), light=light)
+        farm_operators.SKINGLOW_OT_write_openjd.draw(operator, bpy.context)
+        assert need in " ".join(operator.layout.texts), operator.layout.texts
+        assert operator.layout.names.count("rigs") == rigs and operator.layout.names[0] == "light"
 
 
 def check_ranges(work):
