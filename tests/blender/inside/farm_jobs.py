@@ -46,13 +46,9 @@ def check_bundle_of_a_live_scene(work):
     assert rig == {"name": "Rig", "type": "STRING", "range": ["day=warm,cold lamp", f"noon={work / 'noon.json'}"]}
     assert frames["range"] == "{{Param.Frames}}" and frames["chunks"]["defaultTaskCount"] == "{{Param.FramesPerTask}}"
     given = arguments(work / "job")
-    for option, value in (
-        ("--onto", "Patch"),
-        ("--scene", scene.name),
-        ("--timeout", "90"),
-        ("--python-exit-code", "2"),
-        ("--rigs", "{{Task.Param.Rig}}"),
-    ):
+    wanted = {"--onto=Patch", f"--scene={scene.name}", "--rigs={{Task.Param.Rig}}", "--frames={{Task.Param.Frames}}"}
+    assert wanted <= set(given), given
+    for option, value in (("--timeout", "90"), ("--python-exit-code", "2"), ("--progress", "openjd")):
         assert given[given.index(option) + 1] == value
     parameters = read(work / "job", "parameters")
     assert parameters == {
