@@ -154,7 +154,7 @@ face_sizes  (f,), corners of each face, 3 or more
 corners     (c,), vertex of each face corner, faces one after another
 wanted      (v,): a face gets texels if one of its corners is wanted. None: all do
 unit_mm     length of one unit of the vertices, mm, above 0
-spacing_mm  largest distance of texels along edges, above 0; faces whose edges are well below share a tile
+spacing_mm  of texels along edges, to the nearest whole number, above 0; faces whose edges are well below share a tile
 max_texels  of the image, 1024 to 2^24; where it binds, the spacing grows
 Raises ValueError naming the argument, the value and what is allowed.)");
     layout.attr("WIDTH") = tile_image_width;

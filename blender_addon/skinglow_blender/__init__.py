@@ -10,7 +10,7 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any
 
-from . import batch, bundled_core, preferences, scene_settings, skin_settings
+from . import batch, bundled_core, farm, preferences, scene_settings, skin_settings
 from .batch import BatchResult, BatchStep, Rig
 from .commands import freezing, light_listing, povray_export, skin, thickness_map
 from .commands import health as skin_health
@@ -23,10 +23,12 @@ from .live import handlers
 from .live.live_update import Rebuilt
 from .show import material_settings, subsurface
 from .ui import (
+    farm_operators,
     freeze_operators,
     heat_map,
     light_list,
     main_panel,
+    manual,
     material_operators,
     measuring_operators,
     menus,
@@ -60,6 +62,7 @@ __all__ = [
     "bake_thickness",
     "batch_main",
     "export_povray",
+    "farm",
     "freeze",
     "health",
     "light_report",
@@ -90,9 +93,11 @@ _PARTS = (
     slot_choice,
     measuring_operators,
     freeze_operators,
+    farm_operators,
     thickness_operators,
     heat_map,
     presets,
+    manual,
     main_panel,
     menus,
     handlers,
@@ -146,3 +151,4 @@ state_of = _registering(skin.state_of)
 show_light_by = _registering(subsurface.show_light_by)
 render_batch = _registering(batch.render_batch)
 batch_main = _registering(batch.main)
+farm.write_openjd = _registering(farm.write_openjd)

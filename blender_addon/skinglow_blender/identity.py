@@ -10,9 +10,15 @@ HAS_UID = "session_uid" in bpy.types.ID.bl_rna.properties
 def key_of(data: bpy.types.ID) -> str:
     """The same for a data-block as long as the file is open, through renames and undo, and for its evaluated copies.
 
-    Before Blender 4.1 its name and its library's file, which another may take after a rename.
+    Before Blender 4.1 its lasting key, which another may take after a rename.
+    """
+    return str(data.original.session_uid) if HAS_UID else lasting_key_of(data)
+
+
+def lasting_key_of(data: bpy.types.ID) -> str:
+    """The same whenever the file is opened, until a rename: its name and its library's file.
+
+    Not name_full, which a local data-block may have in common with a linked one.
     """
     original = data.original
-    if HAS_UID:
-        return str(original.session_uid)
     return f"{original.name}\n{original.library.filepath}" if original.library is not None else original.name

@@ -49,6 +49,7 @@ class SkinglowPreferences(bpy.types.AddonPreferences):
         column = layout.column(heading="New Skins")
         for name in ("mode", "weights", "preset", "unit_mm"):
             column.prop(self, name)
+        layout.operator("skinglow.manual", icon="HELP")
 
 
 def preferences() -> SkinglowPreferences | None:

@@ -48,7 +48,7 @@ class Session:
         self.prepared_lights: PreparedLights | None = None
         #: Depsgraph mode to what casts shadows there: viewport and render show different objects.
         self.occluders: dict[str, Occluders] = {}
-        #: (name with library, projection) to (source of the pixels, skinglow.Environment or the error).
+        #: (lasting_key_of an image, projection) to (source of the pixels, skinglow.Environment or the error).
         self.world_images: dict[tuple[str, str], tuple[tuple, Any]] = {}
         #: Key of a base lookup that is an image to its skinglow.BaseLut.
         self.base_images: dict[tuple, Any] = {}

@@ -1,6 +1,6 @@
 """Packs the Blender add-on: an extension for Blender 4.2 and later, and an older sort of add-on for 3.4.
 
-Usage: zips.py PROJECT PACKAGES SCRIPT_ACCESS_WHEEL   (by a Python whose environment holds bpy 4.2 or later)
+Usage: zips.py PROJECT PACKAGES SCRIPT_ACCESS_WHEEL MANUAL   (by a Python whose environment holds bpy 4.2 or later)
 """
 
 import ast
@@ -19,17 +19,19 @@ EXTENSION_PYTHONS = ("cp311", "cp313")
 LEGACY_PYTHONS = ("cp310", "cp311")
 
 
-def main(project: Path, packages: Path, script_access: Path) -> None:
+def main(project: Path, packages: Path, script_access: Path, manual: Path) -> None:
     version = project_version(project)
     if addon_version(project) != version:
         sys.exit(f"the add-on's bl_info says {addon_version(project)}, the project is {version}: make them equal")
     wheels = {w.name.split("-")[2]: w for w in sorted(packages.glob(f"skinglow-{version}-*.whl"))}
     with tempfile.TemporaryDirectory() as folder:
         extension_wheels = [wheels[tag] for tag in EXTENSION_PYTHONS if tag in wheels] + [script_access]
+        copy_addon(project, manual, Path(folder) / "extension")
         pack_extension(project, Path(folder) / "extension", version, extension_wheels, packages)
         legacy_wheels = [wheels[tag] for tag in LEGACY_PYTHONS if tag in wheels]
         if legacy_wheels:
-            pack_legacy(project, Path(folder) / "legacy", version, legacy_wheels, packages)
+            copy_addon(project, manual, Path(folder) / "legacy" / ADDON)
+            pack_legacy(Path(folder) / "legacy", version, legacy_wheels, packages)
 
 
 def project_version(project: Path) -> str:
@@ -45,15 +47,15 @@ def addon_version(project: Path) -> str:
     sys.exit("the add-on has no bl_info")
 
 
-def copy_addon(project: Path, folder: Path) -> None:
+def copy_addon(project: Path, manual: Path, folder: Path) -> None:
     leave_out = shutil.ignore_patterns("__pycache__", "*.pyc", "lib")
     shutil.copytree(project / "blender_addon" / ADDON, folder, ignore=leave_out)
     shutil.copy(project / "blender_addon" / "LICENSE", folder)
+    shutil.copytree(manual, folder / "manual")
 
 
 def pack_extension(project: Path, folder: Path, version: str, wheels: list[Path], packages: Path) -> None:
     """By Blender's own builder, which checks the manifest and each wheel's name."""
-    copy_addon(project, folder)
     (folder / "wheels").mkdir()
     for wheel in wheels:
         shutil.copy(wheel, folder / "wheels")
@@ -71,9 +73,8 @@ def pack_extension(project: Path, folder: Path, version: str, wheels: list[Path]
         sys.exit(f"Blender's builder refused the extension:\n{done.stdout}")
 
 
-def pack_legacy(project: Path, folder: Path, version: str, wheels: list[Path], packages: Path) -> None:
+def pack_legacy(folder: Path, version: str, wheels: list[Path], packages: Path) -> None:
     """The add-on's folder, with the core unpacked into `lib`: modules of several Pythons lie side by side."""
-    copy_addon(project, folder / ADDON)
     for wheel in wheels:
         with zipfile.ZipFile(wheel) as archive:
             archive.extractall(folder / ADDON / "lib")

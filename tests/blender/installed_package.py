@@ -8,6 +8,7 @@ import json
 import os
 import sys
 import traceback
+import webbrowser
 from pathlib import Path
 
 OPENED: list[str] = []
@@ -56,6 +57,7 @@ def use():
     found["render"] = render()
     found["batch"] = batch(sb)
     found["warnings"] = warnings()
+    found["manual"] = manual()
     found["opened"] = sorted({os.path.realpath(name) for name in OPENED if name.startswith("/")})
     maps = Path("/proc/self/maps").read_text().splitlines()
     found["mapped"] = sorted({line.split(None, 5)[5] for line in maps if "/" in line})
@@ -203,6 +205,14 @@ def batch(sb):
     runs = [sb.render_batch(folder, "1-2", ["rig.json"]) for _ in range(2)]
     counts = [[len(run.rendered), len(run.kept), len(run.failed)] for run in runs]
     return {"counts": counts, "lines": [json.loads(line)["rig"] for line in (folder / "manifest.jsonl").open()]}
+
+
+def manual():
+    """The page that the manual's button opens."""
+    opened = []
+    webbrowser.open = opened.append
+    bpy.ops.skinglow.manual()
+    return opened
 
 
 def warnings():

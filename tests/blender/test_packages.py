@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import zipfile
 from pathlib import Path
+from urllib.parse import unquote, urlparse
 
 import numpy as np
 import pytest
@@ -103,6 +104,24 @@ def test_zips_hold_the_addon_and_no_leftovers() -> None:
         assert not [name for name in held if "__pycache__" in name.parts]
         code = {name for name in held if name.suffix == ".py" and "lib" not in name.parts}
         assert code == sources, f"{path.name} holds {code - sources}"
+
+
+def test_zips_hold_the_manual() -> None:
+    """Its first page, and everything that its pages link to and show."""
+    for path in zips():
+        with zipfile.ZipFile(path) as archive:
+            names = [name for name in archive.namelist() if "/manual/" in f"/{name}" and not name.endswith("/")]
+            pages = {name: archive.read(name).decode() for name in names if name.endswith(".html")}
+        (first,) = (name for name in pages if name.endswith("manual/blender.html"))
+        folder = Path(first).parent
+        assert "<h1" in pages[first] and "Make Skin Glow" in pages[first]
+        for page, text in pages.items():
+            for target in re.findall(r'(?:href|src)="([^"]+)"', text):
+                name, _, anchor = target.partition("#")
+                linked = (folder / name).as_posix() if name else page
+                assert linked in names, f"{path.name}: {page} links to {target}"
+                assert not anchor or f'id="{anchor}"' in pages[linked], f"{path.name}: {page} links to {target}"
+        assert any(name.endswith(".png") for name in names)
 
 
 def own_python(host: Host, folder: Path) -> Path:
@@ -199,5 +218,7 @@ def test_installed_by_blender_and_used_without_the_project(host: Host, tmp_path:
     assert 0.0 < found["render"] < 100.0
     assert found["batch"] == {"counts": [[2, 0, 0], [0, 2, 0]], "lines": ["rig", "rig"]}
     assert found["warnings"] == {}
+    (page,) = found["manual"]
+    assert Path(unquote(urlparse(page).path)).is_relative_to(installation.profile), page
     assert found["handlers_left"] == []
     assert found["removed"] == []

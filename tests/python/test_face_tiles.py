@@ -65,7 +65,7 @@ def test_every_texel_that_is_read_has_a_target_and_linear_functions_are_exact(na
     # The inset moves points by 1/1000 of a texel. Faces that share a tile meet in a bend, which four texels take for a
     # curve.
     slope = np.linalg.norm(COEFFICIENTS, axis=0).max() * max(layout.spacing_mm, targets.spacing_mm)
-    assert np.abs(error).max() < slope * (0.15 if name in BENT else 8e-3)
+    assert np.abs(error).max() < slope * (0.3 if name in BENT else 8e-3)
     assert np.sqrt((error**2).mean()) < slope * (0.02 if name in BENT else 3e-3)
     assert targets.overlapping == targets.mixed == 0.0
 
@@ -100,7 +100,7 @@ def test_any_faces_can_be_read(seed: int, log_spacing: float, unit_mm: float) ->
 
 def test_edges_and_corners_that_faces_share_have_one_target() -> None:
     mesh = grid(12.0, 8.0, 5, 4, bend=1.0)
-    layout = sg.FaceTiles(*mesh, spacing_mm=0.7)
+    layout = sg.FaceTiles(*mesh, spacing_mm=0.65)
     targets = targets_of(mesh, layout)
     texels_a_face = (targets.of_texel >= 0).sum() / len(mesh.sizes)
     nx, ny = 4, 3  # 2.4 mm, along the bend up to a little more, and 2 mm
@@ -108,7 +108,7 @@ def test_edges_and_corners_that_faces_share_have_one_target() -> None:
     assert len(targets.points) == (5 * nx + 1) * (4 * ny + 1)
     # Seams of texture coordinates and parts that were never merged split vertices.
     apart = Mesh(mesh.vertices[mesh.corners], mesh.sizes, np.arange(len(mesh.corners)))
-    assert len(targets_of(apart, sg.FaceTiles(*apart, spacing_mm=0.7)).points) == len(targets.points)
+    assert len(targets_of(apart, sg.FaceTiles(*apart, spacing_mm=0.65)).points) == len(targets.points)
     shown = mesh.vertices, mesh.triangles, layout.texels[mesh.fans]
     for _ in range(3):
         shown = split_in_four(*shown)

@@ -74,7 +74,7 @@ def test_picture_of_the_architecture_is_up_to_date() -> None:
 
 ADDON = ROOT / "blender_addon" / "skinglow_blender"
 #: The add-on's folders, lowest first: a module imports from its own folder, from lower ones and from the add-on's root.
-ADDON_FLOORS = ("read", "thickness", "table", "show", "live", "commands", "batch", "ui")
+ADDON_FLOORS = ("read", "thickness", "table", "show", "live", "commands", "batch", "farm", "ui")
 
 
 def test_every_folder_of_the_addon_is_a_floor() -> None:
@@ -94,3 +94,22 @@ def test_no_import_of_the_addon_runs_to_a_higher_floor(floor: str) -> None:
             if module in ADDON_FLOORS and module not in allowed:
                 wrong.append(f"{path.relative_to(ADDON)} imports {module}")
     assert not wrong
+
+
+#: Modules by which a program uses the network, or starts another program that might.
+NETWORK = set(
+    "asyncio email ftplib http httpx imaplib multiprocessing poplib requests select selectors smtplib socket "
+    "socketserver ssl subprocess telnetlib urllib urllib3 webbrowser xmlrpc".split()
+)
+
+
+def test_the_addon_has_no_network_code() -> None:
+    found = set()
+    for path in (ROOT / "blender_addon").rglob("*.py"):
+        text = path.read_text()
+        found |= {(path.name, module) for module in re.findall(r"^\s*(?:from|import) (\w+)", text, flags=re.MULTILINE)}
+    assert len({module for _path, module in found}) > 20
+    assert not [each for each in found if each[1] in NETWORK]
+    manifest = (ROOT / "blender_addon" / "blender_manifest.toml.in").read_text()
+    permissions = manifest[manifest.index("[permissions]") :].split()
+    assert permissions.count("=") == 1 and permissions[1] == "files"

@@ -87,15 +87,7 @@ def render_batch(
     (SkinError). A picture that fails does not stop the others. The scene is restored when this returns or raises.
     """
     scene = scene or bpy.context.scene
-    if frames is None:
-        frames = range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
-    frame_list = parse_frames(frames)
-    _check_scene(scene)
-    require_health(scene, frame_list)
-    if rigs is not None:
-        _require_live(scene)
-    ready = [make_ready(scene, rig) for rig in as_rigs(rigs)]
-    pictures = plan_pictures(scene, [r.rig.name for r in ready], frame_list, pattern)
+    ready, pictures = plan_batch(scene, frames, rigs, pattern)
     where = Path(bpy.path.abspath(str(folder))).absolute()
     manifest = Manifest(where, worker)
     try:
@@ -107,6 +99,27 @@ def render_batch(
     with ExitStack() as undo:
         _keep(undo, scene)
         return _Batch(scene, ready, manifest, onto, progress).run(pictures, resume)
+
+
+def plan_batch(
+    scene: bpy.types.Scene,
+    frames: str | int | Iterable[int] | None,
+    rigs: RigLike | Iterable[RigLike] | Mapping[str, Any] | None,
+    pattern: str,
+) -> tuple[list[ReadyRig], list[Picture]]:
+    """The rigs and pictures of a batch, with arguments as in `render_batch`.
+
+    Raises SkinError if they, or the scene, are not fit for it.
+    """
+    if frames is None:
+        frames = range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
+    frame_list = parse_frames(frames)
+    _check_scene(scene)
+    require_health(scene, frame_list)
+    if rigs is not None:
+        _require_live(scene)
+    ready = [make_ready(scene, rig) for rig in as_rigs(rigs)]
+    return ready, plan_pictures(scene, [r.rig.name for r in ready], frame_list, pattern)
 
 
 def _check_scene(scene: bpy.types.Scene) -> None:

@@ -51,9 +51,9 @@ def light_report(
     for row in rows:
         row["share"] = float(np.sum(row["weight"])) / total if total > 0.0 else 0.0
     # An object that is shown by its instances alone is hidden itself.
-    listed = {light.object_name for light in lights if light.name == light.object_name}
+    listed = {key_of(light.shown_by) for light in lights if light.shown_by.type == "LIGHT"}
     for other in depsgraph.scene.objects:
-        if other.type == "LIGHT" and other.name not in listed:
+        if other.type == "LIGHT" and key_of(other) not in listed:
             hidden = _entry(other.name, other.data.type, reason=_why_hidden(other, depsgraph))
             rows.append(hidden | {"distance": None, "angle": None, "object": key_of(other)})
     return rows
@@ -128,7 +128,6 @@ def _why_hidden(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> str:
         return "hidden in renders" if obj.hide_render else "its collection is hidden in renders or excluded"
     if obj.hide_viewport:
         return "disabled in viewports"
-    layer = depsgraph.view_layer
-    if obj.name in layer.objects and layer.objects[obj.name].hide_get(view_layer=layer):
+    if obj.hide_get(view_layer=depsgraph.view_layer):  # not where it is in none of the layer's collections
         return "hidden in the viewport"
     return "its collection is hidden or excluded from the view layer"

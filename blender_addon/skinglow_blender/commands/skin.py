@@ -23,7 +23,7 @@ from ..show.mask import fill_mask, remove_masks, store_masks
 from ..show.material_settings import clear_material, reset_material
 from ..show.skin_group import clear
 from ..show.skin_material import add_to_materials, choose_slots, chosen_materials
-from ..show.tile_image import TILE_PROPERTY, TILES
+from ..show.tile_image import OBJECT_PROPERTIES, TILES
 from ..skin_settings import MEASURING_NAMES, SETTING_NAMES, applied
 from ..table.lut_layout import shown_colors
 from ..table.skin_tables import Table
@@ -197,7 +197,8 @@ def remove_skin(obj: bpy.types.Object) -> None:
     obj.pop(ROW_PROPERTY, None)
     obj.pop(MEDIUM_PROPERTY, None)
     shape_update.forget({key_of(obj)})
-    obj.pop(TILE_PROPERTY, None)
+    for name in OBJECT_PROPERTIES:
+        obj.pop(name, None)
     skins = [o for o in bpy.data.objects if o.skinglow.enabled]
     if not any(o.data == obj.data for o in skins):
         thickness_attribute.remove(obj.data)

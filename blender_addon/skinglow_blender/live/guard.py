@@ -19,22 +19,29 @@ def faults_shown() -> Iterator[None]:
     """Turns an exception into a fault that the panel shows."""
     try:
         yield
-    except (SkinError, ValueError) as error:
-        SESSION.faults["*"] = str(error)
     except Exception as error:  # noqa: BLE001  nothing may interrupt the user's work
-        SESSION.faults["*"] = f"Unexpected {type(error).__name__}: {error} (details in the system console)"
-        traceback.print_exc()
+        _show(error)
 
 
 def guarded(function: Callable[..., None]) -> Callable[..., None]:
     """A handler that never raises. Blender passes as many arguments as the function has positional ones: two."""
 
     def handler(first: Any, second: Any = None) -> None:  # noqa: ANN401  differs between handlers and versions
-        with faults_shown():
+        try:
             function(first, second)
+        except Exception as error:  # noqa: BLE001  nothing may interrupt the user's work
+            _show(error)
 
     handler.__name__ = function.__name__
     return persistent(handler)
+
+
+def _show(error: Exception) -> None:
+    if isinstance(error, (SkinError, ValueError)):
+        SESSION.faults["*"] = str(error)
+        return
+    SESSION.faults["*"] = f"Unexpected {type(error).__name__}: {error} (details in the system console)"
+    traceback.print_exception(error)
 
 
 def has_skins() -> bool:

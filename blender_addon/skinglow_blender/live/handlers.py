@@ -27,14 +27,17 @@ from .windows import follow_windows, is_shown, stop_following_windows, update_sh
 @guarded
 def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Called after an edit."""
-    if not has_skins() or not is_shown(depsgraph) or not follows_lights():
+    if not has_skins() or not follows_lights():
         return
     changes = changes_of(depsgraph)
+    # Asked last: most edits concern no skin.
+    if not any(changes) or not is_shown(depsgraph):
+        return
     moved = changes.materials and follow_materials()
     follow_weights(changes.reshaped)
-    known_images = [name for name in changes.images if world_image.is_known(name)]
-    for name in known_images:
-        world_image.forget(name)
+    known_images = [key for key in changes.images if world_image.is_known(key)]
+    for key in known_images:
+        world_image.forget(key)
     if not known_images and not changes.skins and not moved:
         return
     if update_shown(depsgraph):

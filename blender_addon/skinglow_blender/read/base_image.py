@@ -3,20 +3,19 @@
 
 from typing import Any
 
-import bpy
 import numpy as np
 
 from ..errors import SkinError, core
 from ..session import SESSION
-from .image_pixels import linear_pixels
+from .image_pixels import image_of, linear_pixels
 
 
 def base_of_image(key: tuple) -> Any:  # noqa: ANN401  a skinglow.BaseLut
     """Mean linear brightness of each column. Read once: forget SESSION.base_images after an image was painted."""
     if key in SESSION.base_images:
         return SESSION.base_images[key]
-    _kind, _width, max_thickness_mm, name, _colorspace = key
-    image = bpy.data.images.get(name)
+    _kind, _width, max_thickness_mm, image_key, _colorspace = key
+    image = image_of(image_key)
     if image is None:
         raise SkinError(
             "The base lookup is set to Image, but no image is selected: select one, or set Base to Built-in"

@@ -16,6 +16,12 @@ LINEAR_SPACES = frozenset(("Linear", "Linear Rec.709"))
 DECODE_BLOCK = 1 << 20
 
 
+def image_of(key: str) -> bpy.types.Image | None:
+    """The image of that identity.lasting_key_of, if there is one."""
+    name, _, library = key.partition("\n")
+    return bpy.data.images.get((name, library or None))
+
+
 def linear_pixels(image: bpy.types.Image) -> np.ndarray:
     """(height, width, channels) float32, bottom row first. Raises SkinError if the image has none."""
     if not image.has_data:

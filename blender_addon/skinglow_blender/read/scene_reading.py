@@ -9,7 +9,7 @@ import bpy
 from mathutils import Matrix, Vector
 
 from ..blender_version import output_target
-from ..identity import key_of
+from ..identity import key_of, lasting_key_of
 from ..skin_settings import TISSUE_SLIDERS, as_typed
 from .measured_size import MEASURED_CONE, MEASURED_UNIT, scale_since_measured
 from .scene_lights import SceneLight, read_light
@@ -103,7 +103,7 @@ def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
     for obj in depsgraph.objects:
         kind = obj.type
         take(obj, kind, obj, None)
-        may_instance = may_instance or obj.is_instancer or (kind != "LIGHT" and has_nodes(obj))
+        may_instance = may_instance or obj.is_instancer or (kind != "LIGHT" and has_geometry_nodes(obj))
     if may_instance:
         for instance in depsgraph.object_instances:
             if instance.is_instance:
@@ -111,7 +111,7 @@ def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
     return SceneReading(lights, skins, read_world(depsgraph))
 
 
-def has_nodes(obj: bpy.types.Object) -> bool:
+def has_geometry_nodes(obj: bpy.types.Object) -> bool:
     """Whether an object has a modifier with geometry nodes, which may instance anything."""
     modifiers = obj.modifiers
     return bool(modifiers) and any(modifier.type == "NODES" for modifier in modifiers)
@@ -198,7 +198,7 @@ def _base_key(settings: bpy.types.PropertyGroup, mode: str) -> tuple:
         image = settings.base_image
         if image is None:
             return "IMAGE", 1, max_thickness, "", ""
-        return "IMAGE", max(image.size[0], 1), max_thickness, image.original.name_full, image.colorspace_settings.name
+        return "IMAGE", max(image.size[0], 1), max_thickness, lasting_key_of(image), image.colorspace_settings.name
     return "BUILTIN", size, max_thickness
 
 

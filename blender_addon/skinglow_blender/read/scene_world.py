@@ -11,7 +11,7 @@ import numpy as np
 from .. import blender_version
 from ..errors import SkinError, core
 from . import working_space
-from .image_pixels import colorspace_note
+from .image_pixels import colorspace_note, image_of
 from .world_image import environment_of_image
 from .world_mapping import IDENTITY
 from .world_nodes import Background, read_world_nodes
@@ -53,7 +53,7 @@ class World:
                     environment_of_image(background.image, background.projection)
                 except SkinError as error:
                     return str(error)
-                image = next(i for i in bpy.data.images if i.name_full == background.image)
+                image = image_of(background.image)
                 if colorspace_note(image):
                     return colorspace_note(image)
         return ""

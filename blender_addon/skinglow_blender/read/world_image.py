@@ -7,46 +7,47 @@ from typing import Any
 import bpy
 
 from ..errors import SkinError, core
+from ..identity import lasting_key_of
 from ..session import SESSION
-from .image_pixels import linear_pixels
+from .image_pixels import image_of, linear_pixels
 
 #: Blender does not report painted pixels: an image that was edited and not saved is reread at each update up to this
 #: size (some 10 ms); larger ones only after `forget_edited`.
 MAX_EDITED_PIXELS = 1 << 20
 
 
-def environment_of_image(name: str, projection: str) -> Any:  # noqa: ANN401  a skinglow.Environment
-    """The environment of an image (name with library), not rotated. Raises SkinError if it cannot be used."""
-    image = next((each for each in bpy.data.images if each.name_full == name), None)
+def environment_of_image(key: str, projection: str) -> Any:  # noqa: ANN401  a skinglow.Environment
+    """The environment of an image (lasting_key_of), not rotated. Raises SkinError if it cannot be used."""
+    image = image_of(key)
     if image is None:
-        raise SkinError(f"its image '{name}' no longer exists")
+        raise SkinError("its image no longer exists")
     source = _source_of(image)
-    known = SESSION.world_images.get((name, projection))
+    known = SESSION.world_images.get((key, projection))
     edited = image.is_dirty and image.size[0] * image.size[1] <= MAX_EDITED_PIXELS
     # Reloading leaves an image without data until it is read; not every version reports it.
     if known is None or known[0] != source or edited or not image.has_data:
-        known = SESSION.world_images[name, projection] = (source, _compute(image, projection))
+        known = SESSION.world_images[key, projection] = (source, _compute(image, projection))
     if isinstance(known[1], SkinError):
         raise known[1]
     return known[1]
 
 
-def forget(name: str) -> None:
+def forget(key: str) -> None:
     """Rereads an image at the next update."""
-    for key in [key for key in SESSION.world_images if key[0] == name]:
-        del SESSION.world_images[key]
+    for known in [known for known in SESSION.world_images if known[0] == key]:
+        del SESSION.world_images[known]
 
 
 def forget_edited() -> None:
     """Rereads all images that were edited in Blender and not saved since."""
     for image in bpy.data.images:
         if image.is_dirty:
-            forget(image.name_full)
+            forget(lasting_key_of(image))
 
 
-def is_known(name: str) -> bool:
+def is_known(key: str) -> bool:
     """Whether a world uses or used that image."""
-    return any(key[0] == name for key in SESSION.world_images)
+    return any(known[0] == key for known in SESSION.world_images)
 
 
 def _source_of(image: bpy.types.Image) -> tuple:

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import bpy
 
+from ..identity import lasting_key_of
 from .node_values import linked_node, linked_socket, socket_value
 from .world_mapping import IDENTITY, Rows, image_from_world
 
@@ -15,7 +16,7 @@ class Background(NamedTuple):
     """The light of one Background node."""
 
     color: tuple[float, float, float]  #: radiance, W/(m^2 sr); with an image, the image's factor
-    image: str  #: name with library of the image; "": none
+    image: str  #: lasting_key_of the image; "": none
     projection: str  #: of the image, 'EQUIRECTANGULAR' or 'MIRROR_BALL'
     image_from_world: Rows  #: orthogonal; maps world directions to image directions
 
@@ -72,7 +73,7 @@ def _read_background(node: bpy.types.Node, factor: float) -> WorldLight:
         if source.image is None:
             return WorldLight((), f"its node '{source.name}' has no image")
         rows, mapping_note = image_from_world(source.inputs["Vector"])
-        image = source.image.original.name_full
+        image = lasting_key_of(source.image)
         light = Background((strength,) * 3, image, source.projection, rows)
         return WorldLight((light,), note or mapping_note)
     color, color_note = socket_value(node.inputs["Color"])

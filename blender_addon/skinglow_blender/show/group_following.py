@@ -15,11 +15,9 @@ from .skin_material import skin_node
 from .tile_image import TILES
 
 
-def may_change_groups(update: bpy.types.DepsgraphUpdate) -> bool:
-    """Whether a reported change may have assigned another material to a skin; moving it or a light cannot."""
-    if isinstance(update.id, bpy.types.Object):
-        return update.id.type == "MESH" and (update.is_updated_geometry or update.is_updated_shading)
-    return isinstance(update.id, bpy.types.Material)
+def may_change_groups(update: bpy.types.DepsgraphUpdate, kind: str) -> bool:
+    """Whether a reported change of an object of that type may have given a skin another material; a move cannot."""
+    return kind == "MESH" and (update.is_updated_geometry or update.is_updated_shading)
 
 
 def follow_materials() -> bool:

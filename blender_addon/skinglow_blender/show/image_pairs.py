@@ -168,6 +168,10 @@ class PairContents:
         width, height = pair[0].size
         return self.pixels.shape[:2] == (height, width) and self.space == working_space.working_space()
 
+    def is_of_same_images(self, other: "PairContents") -> bool:
+        """Whether the other one is of the same group, images and working space; their size may differ."""
+        return self._data == other._data and self.space == other.space
+
     def write(self, group: bpy.types.NodeTree) -> None:
         """Writes the pixels into an image that no renderer holds a copy of.
 

@@ -58,6 +58,15 @@ class NodeBuilder:
             self.set(socket, value)
         return node.outputs["Value" if operation == "DOT_PRODUCT" else "Vector"]
 
+    def mix(self, a: Value, b: Value, fraction: Value, label: str = "") -> Socket:
+        """The vector a + (b - a) fraction."""
+        node = self.node("ShaderNodeMix", label)
+        node.data_type, node.clamp_factor = "VECTOR", False
+        sockets = {socket.identifier: socket for socket in node.inputs}
+        for name, value in (("A_Vector", a), ("B_Vector", b), ("Factor_Float", fraction)):
+            self.set(sockets[name], value)
+        return next(socket for socket in node.outputs if socket.identifier == "Result_Vector")
+
     def split(self, vector: Socket) -> tuple[Socket, Socket, Socket]:
         """The three components of a vector."""
         node = self.node("ShaderNodeSeparateXYZ")

@@ -11,7 +11,7 @@ import bpy
 
 from ..thickness.tile_attribute import TEXEL_ATTRIBUTE
 from .node_building import NodeBuilder, Socket, inner_group
-from .tile_image import TILE_IMAGE_NODE, TILE_NODE, TILE_PROPERTY
+from .tile_image import FIRST_TEXEL_PROPERTY, TEXEL_SIZE_PROPERTY, TILE_IMAGE_NODE, TILE_NODE
 
 INNER_GROUP = ".Skinglow tile"
 #: How far a tile's number may be from a whole one: faces between two tiles, which modifiers and edits make, interpolate
@@ -30,39 +30,28 @@ class Tiles(NamedTuple):
 def add_tiles(build: NodeBuilder) -> Tiles:
     """Adds the nodes to a skin's group."""
     texel = build.attribute("GEOMETRY", TEXEL_ATTRIBUTE, "Texel x, y, 1 + tile").outputs["Vector"]
-    own = build.attribute("OBJECT", TILE_PROPERTY, "First row, texel width and height, use").outputs
-    first_row, width, height = build.split(own["Vector"])
-    size = build.combine(width, height)
-    # The row is added to whole texels: added before, it would cost the fraction its last digits.
-    center = build.combine(0.5, build.math("ADD", first_row, 0.5))
-    cell = build.vector("ADD", build.vector("FLOOR", texel), center)
-    corner = build.vector("MULTIPLY", cell, size, label="Texel below")
+    first = build.attribute("OBJECT", FIRST_TEXEL_PROPERTY, "First texel, use").outputs
+    size = build.attribute("OBJECT", TEXEL_SIZE_PROPERTY, "Size of a texel").outputs["Vector"]
+    corner = build.vector("MULTIPLY_ADD", build.vector("FLOOR", texel), size, first["Vector"], label="Texel below")
     inner = _tile_group()
     colors = []
-    for step in ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (1.0, 1.0, 0.0)):
+    for step in (None, (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (1.0, 1.0, 0.0)):
         node = build.instance(inner, "Texel")
         if not colors:
             node.name = TILE_NODE
-        for name, value in (("Corner", corner), ("Size", size), ("Step", step)):
-            build.set(node.inputs[name], value)
+        at = corner if step is None else build.vector("MULTIPLY_ADD", size, step, corner)
+        build.set(node.inputs["Texel"], at)
         colors.append(node.outputs["Color"])
     x, y, _z = build.split(build.vector("FRACTION", texel))
-    lower, upper = (_mix(build, a, b, x) for a, b in (colors[:2], colors[2:]))
+    lower, upper = (build.mix(a, b, x) for a, b in (colors[:2], colors[2:]))
     tile = build.split(texel)[2]
-    is_whole = build.math("COMPARE", tile, build.math("ROUND", tile), MAX_ROUNDING, label="Within one tile")
-    there = build.math("MULTIPLY", is_whole, build.math("MINIMUM", tile, 1.0), label="There is a tile")
-    return Tiles(_mix(build, lower, upper, y), there, own["Alpha"])
-
-
-def _mix(build: NodeBuilder, a: Socket, b: Socket, fraction: Socket) -> Socket:
-    return build.vector("MULTIPLY_ADD", build.vector("SUBTRACT", b, a), fraction, a)
+    nearest = build.math("MAXIMUM", build.math("ROUND", tile), 1.0)
+    there = build.math("COMPARE", tile, nearest, MAX_ROUNDING, label="Within one tile")
+    return Tiles(build.mix(lower, upper, y), there, first["Alpha"])
 
 
 def _tile_group() -> bpy.types.NodeTree:
-    build, entry = inner_group(
-        INNER_GROUP, {"Corner": "Vector", "Size": "Vector", "Step": "Vector"}, {"Color": "Color"}
-    )
-    given = entry.outputs
-    coordinate = build.vector("MULTIPLY_ADD", given["Step"], given["Size"], given["Corner"])
-    build.set(build.node("NodeGroupOutput").inputs["Color"], build.texel(coordinate, TILE_IMAGE_NODE).outputs["Color"])
+    build, entry = inner_group(INNER_GROUP, {"Texel": "Vector"}, {"Color": "Color"})
+    texel = build.texel(entry.outputs["Texel"], TILE_IMAGE_NODE)
+    build.set(build.node("NodeGroupOutput").inputs["Color"], texel.outputs["Color"])
     return build.tree

@@ -19,9 +19,12 @@ from .lut_image import TILE_NODES_PROPERTY
 
 #: The node of the inner group that reads a texel, and the image node in it.
 TILE_NODE, TILE_IMAGE_NODE = "Tile texel", "Tile"
-#: Custom property of a skin object that its node group reads: first row, width and height of a texel, and whether its
-#: tiles are shown, 1 or 0.
+#: Custom property of a skin object: first row, width and height of a texel, and whether its tiles are shown, 1 or 0.
 TILE_PROPERTY = "skinglow_tiles"
+#: The same as its node group reads it, with as little arithmetic as can be: (u, v) of the center of its first texel, 0,
+#: and whether tiles are shown; width and height of a texel, 0.
+FIRST_TEXEL_PROPERTY, TEXEL_SIZE_PROPERTY = "skinglow_first_texel", "skinglow_texel_size"
+OBJECT_PROPERTIES = (TILE_PROPERTY, FIRST_TEXEL_PROPERTY, TEXEL_SIZE_PROPERTY)
 DARK = (0.0, 0.0, 0.0, 0.0)
 
 
@@ -44,6 +47,11 @@ class TileAtlas(PairContents):
         super().__init__(TILES, group, mode)
         self._written: dict[str, tuple[int, object]] = {}
 
+    def take_over(self, smaller: "TileAtlas") -> None:
+        """Takes what these images held before they were enlarged: not every skin is put again at once."""
+        self.pixels[: len(smaller.pixels)] = smaller.pixels
+        self._written, self.is_dirty = smaller._written, True
+
     def holds(self, key: str, first_row: int, source: object) -> bool:
         """Whether a skin's rows hold exactly what this object was put for."""
         row, written = self._written.get(key, (None, None))
@@ -57,11 +65,14 @@ class TileAtlas(PairContents):
 
 
 def tile_atlas(group: bpy.types.NodeTree, mode: str) -> TileAtlas:
-    """The cached contents of a group's tile images; new and empty where these changed."""
+    """The cached contents of a group's tile images; new and empty where these are others."""
     key = (key_of(group), mode)
-    atlas = SESSION.tile_atlases.get(key)
-    if atlas is None or not atlas.fits(group):
-        atlas = SESSION.tile_atlases[key] = TileAtlas(group, mode)
+    known = SESSION.tile_atlases.get(key)
+    if known is not None and known.fits(group):
+        return known
+    atlas = SESSION.tile_atlases[key] = TileAtlas(group, mode)
+    if known is not None and known.is_of_same_images(atlas) and len(known.pixels) < len(atlas.pixels):
+        atlas.take_over(known)
     return atlas
 
 
@@ -136,9 +147,12 @@ def show_tiles(obj: bpy.types.Object, atlas: TileAtlas | None, first_row: int = 
 def set_tile_property(
     obj: bpy.types.Object, wanted: tuple[float, float, float, float], during_render: bool = False
 ) -> None:
-    """Writes the property if it differs, and has Blender evaluate the object again."""
+    """Writes the properties if they differ, and has Blender evaluate the object again."""
     if tuple(obj.get(TILE_PROPERTY, DARK)) != wanted:
+        first_row, width, height, use = wanted
         obj[TILE_PROPERTY] = wanted
+        obj[FIRST_TEXEL_PROPERTY] = 0.5 * width, (first_row + 0.5) * height, 0.0, use
+        obj[TEXEL_SIZE_PROPERTY] = width, height, 0.0
         # In an animation render the object itself is at the frame where that began: its keys have to be evaluated
         # again. In the viewport that would take back what was edited and not keyed yet.
         obj.update_tag(refresh={"OBJECT", "TIME"} if during_render else {"OBJECT"})

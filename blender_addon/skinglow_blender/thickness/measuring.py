@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures the thickness of meshes in a thread, so that Blender's window stays responsive."""
 
+from collections.abc import Sequence
 from threading import Thread
 
 import numpy as np
@@ -16,9 +17,10 @@ MAX_WAIT = 10.0
 class Measuring:
     """Starts to measure on construction. The thread accesses arrays only, never Blender's data."""
 
-    def __init__(self, geometries: dict[str, Geometry]) -> None:
+    def __init__(self, geometries: dict[str, Geometry], names: Sequence[str] = ()) -> None:
         core()  # raises here rather than in the thread if it is missing
-        self.geometries = geometries  #: by object name
+        self.names = names  #: of the objects, for people
+        self.geometries = geometries  #: by key of the object (identity.key_of)
         self.thicknesses: dict[str, tuple[np.ndarray, np.ndarray]] = {}  #: finished meshes, as `measure` returns them
         self.canceled = False  #: set it to stop the thread
         self._fraction = 0.0
@@ -37,7 +39,7 @@ class Measuring:
         return self._thread.is_alive()
 
     def wait(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """Waits for the thread; returns what `measure` does by object name, or raises the thread's exception."""
+        """Waits for the thread; returns what `measure` does by key of the object, or raises the thread's exception."""
         self._thread.join()
         if self._fault is not None:
             raise self._fault
@@ -50,11 +52,11 @@ class Measuring:
 
     def _run(self) -> None:
         try:
-            for name, geometry in self.geometries.items():
+            for key, geometry in self.geometries.items():
                 values = measure(geometry, self._progress)
                 # Reset the fraction first: the progress shown may pause, but must not decrease.
                 self._fraction = 0.0
-                self.thicknesses[name] = values
+                self.thicknesses[key] = values
         except BaseException as error:  # noqa: BLE001  raised again by wait()
             self._fault = error
 

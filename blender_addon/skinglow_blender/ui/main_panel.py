@@ -10,6 +10,7 @@ from ..show.frozen import is_frozen
 from . import freeze_panel, lights_panel, look_panel, lookup_table_panel, material_panel, thickness_panel, tools_panel
 from .locations import ObjectProperties, Sidebar, is_skin
 from .lut_preview import icon_of
+from .manual import draw_in_header
 from .material_panel import draw_shown_by
 from .progress_bar import draw_progress
 from .wrapped_text import draw_wrapped
@@ -17,6 +18,9 @@ from .wrapped_text import draw_wrapped
 
 class _Main:
     bl_label = "Skinglow"
+
+    def draw_header_preset(self, _context: bpy.types.Context) -> None:
+        draw_in_header(self.layout)
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout

@@ -6,6 +6,7 @@ from bpy.props import CollectionProperty, EnumProperty, FloatProperty
 
 from ..commands import skin
 from ..errors import SkinError
+from ..identity import HAS_UID, key_of
 from ..preferences import of_new_skins
 from ..read.measured_geometry import Geometry, read_geometry
 from ..session import SESSION
@@ -28,13 +29,13 @@ class _MeasuringOperator:
     bl_options = {"REGISTER", "UNDO"}
 
     def to_measure(self, context: bpy.types.Context) -> dict[str, Geometry]:
-        """The geometry to measure; raises SkinError for a mesh that cannot be measured."""
+        """The geometry to measure, by key of the object; raises SkinError for a mesh that cannot be measured."""
         raise NotImplementedError
 
-    def before_storing(self, context: bpy.types.Context, names: list[str]) -> None:
+    def before_storing(self, context: bpy.types.Context, objects: list[bpy.types.Object]) -> None:
         """Runs before the thickness of the meshes is stored."""
 
-    def finish(self, context: bpy.types.Context, names: list[str]) -> str:
+    def finish(self, context: bpy.types.Context, objects: list[bpy.types.Object]) -> str:
         """Runs after the thickness of the meshes is stored; returns the message to report."""
         raise NotImplementedError
 
@@ -44,9 +45,9 @@ class _MeasuringOperator:
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         try:
-            self._names = [obj.name_full for obj in self.targets(context)]
+            self._names = {key_of(obj): obj.name for obj in self.targets(context)}
             geometries = self.to_measure(context)
-            thicknesses = {name: thickness_attribute.measure(geometry) for name, geometry in geometries.items()}
+            thicknesses = {key: thickness_attribute.measure(geometry) for key, geometry in geometries.items()}
         except (SkinError, ValueError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -56,11 +57,11 @@ class _MeasuringOperator:
         if bpy.app.background:
             return self.execute(context)
         try:
-            self._names = [obj.name_full for obj in self.targets(context)]
+            self._names = {key_of(obj): obj.name for obj in self.targets(context)}
             geometries = self.to_measure(context)
             if not geometries:
                 return self._store(context, {}, {})
-            SESSION.measuring = Measuring(geometries)
+            SESSION.measuring = Measuring(geometries, [self._names[key] for key in geometries])
         except (SkinError, ValueError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -106,30 +107,32 @@ class _MeasuringOperator:
 
     def _store(self, context: bpy.types.Context, geometries: dict, thicknesses: dict) -> set[str]:
         try:
-            self.before_storing(context, self._names)
-            for name, values in thicknesses.items():
-                thickness_attribute.store_measured(_object(name), context.scene, geometries[name], *values)
-            self.report({"INFO"}, self.finish(context, self._names))
-            for name in thicknesses:
-                if text := thickness_attribute.no_far_side_text(_object(name).data):
-                    self.report({"WARNING"}, f"{name}: {text}")
+            objects = _objects(self._names)
+            self.before_storing(context, list(objects.values()))
+            for key, values in thicknesses.items():
+                thickness_attribute.store_measured(objects[key], context.scene, geometries[key], *values)
+            self.report({"INFO"}, self.finish(context, list(objects.values())))
+            for key in thicknesses:
+                if text := thickness_attribute.no_far_side_text(objects[key].data):
+                    self.report({"WARNING"}, f"{objects[key].name}: {text}")
         except (SkinError, ValueError) as error:
             self.report({"ERROR"}, str(error))
         # Also after an error: some meshes may have changed, and Undo reverts that.
         return {"FINISHED"}
 
 
-def _object(name: str) -> bpy.types.Object:
-    """Undo invalidates all references, so objects are looked up by name."""
-    for obj in bpy.data.objects:
-        if obj.name_full == name:
-            return obj
-    raise SkinError(f"'{name}' was deleted or renamed while it was measured")
+def _objects(names: dict[str, str]) -> dict[str, bpy.types.Object]:
+    """The objects of these keys, in their order. Undo invalidates all references, so they are looked up."""
+    found = {key_of(obj): obj for obj in bpy.data.objects}
+    for key, name in names.items():
+        if key not in found:
+            raise SkinError(f"'{name}' was deleted{'' if HAS_UID else ' or renamed'} while it was measured")
+    return {key: found[key] for key in names}
 
 
 def _show_progress(context: bpy.types.Context) -> None:
     measuring = SESSION.measuring
-    names = ", ".join(measuring.geometries)
+    names = ", ".join(measuring.names)
     if measuring.canceled:
         text = f"Canceling: the thickness of {names} is kept"
     elif measuring.running:
@@ -205,16 +208,14 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
             if unit > 0.0:
                 geometry = geometry._replace(unit_mm=unit)
             if not thickness_attribute.is_measured(obj, geometry):
-                found[obj.name_full] = geometry
+                found[key_of(obj)] = geometry
         return found
 
-    def before_storing(self, _context: bpy.types.Context, names: list[str]) -> None:
-        for name in names:
-            obj = _object(name)
+    def before_storing(self, _context: bpy.types.Context, objects: list[bpy.types.Object]) -> None:
+        for obj in objects:
             obj.skinglow.unit_mm = self._settings(obj).get("unit_mm", obj.skinglow.unit_mm)
 
-    def finish(self, _context: bpy.types.Context, names: list[str]) -> str:
-        objects = [_object(name) for name in names]
+    def finish(self, _context: bpy.types.Context, objects: list[bpy.types.Object]) -> str:
         states = [self._make(obj) for obj in objects]
         slot_choice.offer(self.slots, objects)
         return "; ".join(f"{s.name}: {s.thickness_mm[0]:.2f} to {s.thickness_mm[1]:.2f} mm thick" for s in states)
@@ -251,15 +252,14 @@ class SKINGLOW_OT_measure_thickness(_MeasuringOperator, bpy.types.Operator):  # 
         return selected_skins(context)
 
     def to_measure(self, context: bpy.types.Context) -> dict[str, Geometry]:
-        return {o.name_full: read_geometry(o, context.scene) for o in self.targets(context)}
+        return {key_of(o): read_geometry(o, context.scene) for o in self.targets(context)}
 
-    def finish(self, context: bpy.types.Context, names: list[str]) -> str:
-        for name in names:
-            obj = _object(name)
+    def finish(self, context: bpy.types.Context, objects: list[bpy.types.Object]) -> str:
+        for obj in objects:
             if obj.skinglow.weights == "SHAPE" and obj.skinglow.mode == "PHYSICAL":
                 ensure_tiles(obj, context.scene)
             obj.update_tag(refresh={"OBJECT"})
-        return "; ".join(f"{name}: {len(_object(name).data.vertices)} vertices measured" for name in names)
+        return "; ".join(f"{obj.name}: {len(obj.data.vertices)} vertices measured" for obj in objects)
 
 
 class SKINGLOW_OT_cancel_measuring(bpy.types.Operator):  # noqa: N801

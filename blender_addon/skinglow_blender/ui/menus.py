@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Entries in Blender's own menus: Object, its context menu, File > Export, and Add in the Shader Editor."""
+"""Entries in Blender's own menus: Object, its context menu, File > Export, Add in the Shader Editor, and Help."""
 
 import bpy
 
@@ -35,6 +35,7 @@ def _in_object_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
 
 def _in_export_menu(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
     self.layout.operator("skinglow.export_povray", text="Skin Glow for POV-Ray (.pov)")
+    self.layout.operator("skinglow.write_openjd", text="Skin Glow Job for Render Farms (OpenJD)")
 
 
 def _in_node_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
@@ -50,12 +51,18 @@ def _in_node_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     setting.name, setting.value = "node_tree", f"bpy.data.node_groups[{group.name!r}, {library!r}]"
 
 
+def _in_help_menu(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    self.layout.separator()
+    self.layout.operator("skinglow.manual", icon="HELP")
+
+
 #: Blender's menus and what is added to each.
 ENTRIES = (
     ("VIEW3D_MT_object", _in_object_menu),
     ("VIEW3D_MT_object_context_menu", _in_object_menu),
     ("TOPBAR_MT_file_export", _in_export_menu),
     ("NODE_MT_add", _in_node_menu),
+    ("TOPBAR_MT_help", _in_help_menu),
 )
 
 

@@ -136,7 +136,9 @@ class SKINGLOW_OT_reset(_EachSelectedSkin, bpy.types.Operator):  # noqa: N801
         skin.reset_settings(obj)
 
 
-class _AnySkin(_SkinOperator):
+class AnySkinOperator(_SkinOperator):
+    """Acts on all skins of the file."""
+
     @classmethod
     def poll(cls, _context: bpy.types.Context) -> bool:
         if skin_groups():
@@ -145,7 +147,7 @@ class _AnySkin(_SkinOperator):
         return False
 
 
-class SKINGLOW_OT_update(_AnySkin, bpy.types.Operator):  # noqa: N801
+class SKINGLOW_OT_update(AnySkinOperator, bpy.types.Operator):  # noqa: N801
     """Recomputes all skins."""
 
     bl_idname = "skinglow.update"
@@ -161,7 +163,7 @@ class SKINGLOW_OT_update(_AnySkin, bpy.types.Operator):  # noqa: N801
         return self.attempt(update)
 
 
-class SKINGLOW_OT_export_povray(_AnySkin, bpy.types.Operator):  # noqa: N801
+class SKINGLOW_OT_export_povray(AnySkinOperator, bpy.types.Operator):  # noqa: N801
     """Writes POV-Ray scenes. No undo: it changes no Blender data."""
 
     bl_idname = "skinglow.export_povray"

@@ -22,14 +22,15 @@ constexpr std::size_t tile_image_width = 1024;
 
 struct FaceTilesOptions {
     double unit_mm = 1.0;     ///< length of one unit of the vertices, mm; finite, above 0
-    double spacing_mm = 0.8;  ///< largest distance of texels along the edges of a face, mm; finite, above 0
+    double spacing_mm = 0.8;  ///< of texels along the edges of a face, to the nearest whole number; finite, above 0
     /// Most texels of the image, at least one row of it; where it binds, the spacing grows.
     std::size_t max_texels = std::size_t{1} << 20U;
 };
 
 /// Where in an image the faces of a mesh have their texels. Faces that share a tile:
-/// - a quad has one of its own, with (nx + 1) x (ny + 1) texels, n the length of its longer opposite edge over the
-///   spacing, rounded up. Two triangles that make up a quad share one; a triangle left over has half a square;
+/// - a quad has one of its own, with (nx + 1) x (ny + 1) texels, n the length of the longer of opposite edges over
+///   the spacing, rounded, 1 or more. Two triangles that make up a quad share one; a triangle left over has half of
+///   one, with its longest edge as the diagonal;
 /// - faces of more corners lie in a tile as in their plane, and so do long thin ones where that takes far fewer
 ///   texels;
 /// - connected faces whose edges are well below the spacing, and that face alike, share a plane.

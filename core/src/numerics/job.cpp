@@ -9,7 +9,7 @@
 namespace skinglow::detail {
 namespace {
 
-constexpr std::chrono::milliseconds between_calls(20);
+constexpr std::chrono::milliseconds between_calls(10);
 
 thread_local Job* job_of_thread = nullptr;
 

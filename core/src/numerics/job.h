@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <exception>
 #include <functional>
 
@@ -50,12 +51,16 @@ class JobStopped : public std::exception {
 /// Where work may end early: throws JobStopped if this thread's job was stopped. for_each_block calls it for each
 /// block.
 void stop_if_asked();
+/// The same in a loop of many small steps: at some of them.
+inline void stop_if_asked(std::size_t step) {
+    if (step % 256 == 0) stop_if_asked();
+}
 /// Of this thread's job, in any unit; nothing without one.
 void expect_work(double work);
 void finish_work(double work);
 
-/// Runs `work` as a job, on a thread of its own, while this thread tells `progress` the fraction done every few
-/// hundredths of a second: 0 first, ascending, 1 last. So the caller can stop it at any time, whatever thread is
+/// Runs `work` as a job, on a thread of its own, while this thread tells `progress` the fraction done every
+/// hundredth of a second: 0 first, ascending, 1 last. So the caller can stop it at any time, whatever thread is
 /// busy, and a host's functions are called on the thread that asked.
 /// @param progress  returns whether to go on; empty: the work runs on this thread, as a part of its job if it has one
 /// @return false where `progress` returned false. Throws what `work` or `progress` throws.

@@ -14,6 +14,6 @@ namespace skinglow::detail {
 /// @param done     told the number finished so far after each block that the calling thread does; may be empty
 /// @param block    items per task: amortizes scheduling, and keeps canceling responsive (some milliseconds)
 void for_each_block(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& work,
-                    const std::function<void(std::size_t)>& done, std::size_t block = 128);
+                    const std::function<void(std::size_t)>& done = {}, std::size_t block = 128);
 
 }  // namespace skinglow::detail

@@ -11,6 +11,8 @@
 #include <string>
 #include <type_traits>
 
+#include "numerics/job.h"
+
 namespace skinglow::detail {
 namespace {
 
@@ -91,6 +93,11 @@ void show_to_visitor(const RTCFilterFunctionNArguments* arguments) {
     }
 }
 
+/// Whether building a scene goes on.
+bool is_wanted(void* job, double) {
+    return !static_cast<const Job*>(job)->is_stopped();
+}
+
 void add_triangles(RTCDevice device, RTCScene scene, std::span<const glm::dvec3> points,
                    std::span<const glm::uvec3> corners) {
     const Owned<RTCGeometry> owner(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
@@ -163,7 +170,11 @@ EmbreeTriangles::EmbreeTriangles(std::span<const glm::dvec3> points, std::span<c
     // Robust: no ray slips through between two triangles that share an edge.
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     if (!corners.empty()) add_triangles(device, scene, points, corners);
+    Job* const job = Job::current();
+    if (job != nullptr) rtcSetSceneProgressMonitorFunction(scene, is_wanted, job);
     rtcCommitScene(scene);
+    rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+    stop_if_asked();
     if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
         fail("building the scene failed with error code " + std::to_string(error));
 }

@@ -9,6 +9,7 @@
 #include "geometry/vector.h"
 #include "geometry/weld.h"
 #include "numerics/argument_check.h"
+#include "numerics/job.h"
 #include "shape/face_orientation.h"
 
 namespace skinglow::detail {
@@ -81,8 +82,11 @@ Body::Body(const MeshView& mesh, double unit_mm) : unit_mm_(unit_mm) {
     positions_.reserve(weld.first.size());
     for (const std::uint32_t first : weld.first) positions_.push_back(local(given[first]));
     welded_of_ = std::move(weld.index);
+    stop_if_asked();
     add_triangles(mesh.triangles());
+    stop_if_asked();
     turn_outward();
+    stop_if_asked();
     index_triangles();
 }
 
@@ -90,6 +94,7 @@ void Body::add_triangles(std::span<const glm::uvec3> triangles) {
     std::vector<BodyTriangle> all;
     all.reserve(triangles.size());
     for (const glm::uvec3& t : triangles) {
+        stop_if_asked(all.size());
         const glm::uvec3 welded(welded_of_[t.x], welded_of_[t.y], welded_of_[t.z]);
         const glm::dvec3 a = positions_[welded.x];
         const glm::dvec3 b = positions_[welded.y];
@@ -99,6 +104,7 @@ void Body::add_triangles(std::span<const glm::uvec3> triangles) {
         if (normal == glm::dvec3(0.0) || !(area > 0)) continue;
         all.push_back({t, welded, normal, area});
     }
+    stop_if_asked();
     const std::vector<bool> kept = kept_once(all);
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (kept[i]) triangles_.push_back(all[i]);

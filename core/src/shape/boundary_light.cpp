@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "numerics/job.h"
+
 namespace skinglow::detail {
 namespace {
 
@@ -55,6 +57,7 @@ std::vector<Lean> find_leans(const Body& body, const VoxelGrid& grid, std::span<
     std::vector<Lean> leans;
     const float h = grid.cell();
     for (std::uint32_t i = 0; i < samples.size(); ++i) {
+        stop_if_asked(i);
         const BoundarySample& s = samples[i];
         const BodyTriangle& t = body.triangles()[s.triangle];
         const glm::vec3 point = body.at(t, s.u, s.v);
@@ -136,6 +139,7 @@ SparseRows<LanePair> boundary_light(const Body& body, const VoxelGrid& grid,
     RowSums<LanePair> sums(vertices_of(body));
     SparseRows<LanePair> rows;
     for (std::uint32_t c = 0; c < grid.size(); ++c) {
+        stop_if_asked(c);
         for (const std::uint32_t i : by_cell.at(c)) {
             const BoundarySample& s = samples[i];
             LanePair part;
@@ -167,6 +171,7 @@ Ghosts make_ghosts(const Body& body, const VoxelGrid& grid, std::span<const Boun
     RowSums<LanePair> of_modes(grid.size());
     RowSums<Lanes> of_light(vertices_of(body));
     for (std::uint32_t g = 0; g < count; ++g) {
+        stop_if_asked(g);
         float total = 0;
         for (const std::uint32_t i : by_ghost.at(g)) total += leans[i].weight;
         for (const std::uint32_t i : by_ghost.at(g)) {

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "numerics/job.h"
 #include "shape/flesh_cells.h"
 
 namespace skinglow::detail {
@@ -48,6 +49,7 @@ BoundarySamples boundary_samples(const FleshSurface& surface, const VoxelGrid& g
     const Body& body = surface.body();
     BoundarySamples result;
     for (std::uint32_t f = 0; f < body.triangles().size(); ++f) {
+        stop_if_asked(f);
         const BodyTriangle& t = body.triangles()[f];
         if (!is_near(body, t, grid) || surface.is_all_wall(f)) continue;
         const int parts = parts_of(body, t, 0.5F * grid.cell());

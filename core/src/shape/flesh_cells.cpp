@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "numerics/job.h"
 #include "numerics/parallel_blocks.h"
 
 namespace skinglow::detail {
@@ -35,7 +36,9 @@ void touch(const VoxelGrid& grid, const glm::vec3& point, std::vector<std::uint8
 /// Voxels whose cube a triangle comes near.
 std::vector<std::uint8_t> touched_places(const Body& body, const VoxelGrid& grid) {
     std::vector<std::uint8_t> touched(grid.voxels(), 0);
-    for (const BodyTriangle& t : body.triangles()) {
+    for (std::size_t f = 0; f < body.triangles().size(); ++f) {
+        stop_if_asked(f);
+        const BodyTriangle& t = body.triangles()[f];
         if (!is_near(body, t, grid)) continue;
         const int parts = parts_of(body, t, part_cells * grid.cell());
         const auto scale = static_cast<float>(parts);

@@ -256,14 +256,17 @@ LastFlight last_flight(const FleshSurface& surface, const VoxelGrid& grid, const
         FlightTracer tracer(surface, grid, ghosts, medium, options);
         for (std::size_t b = begin; b < end; ++b) {
             const std::size_t last = std::min(sites.size(), (b + 1) * sites_per_block);
-            for (std::size_t i = b * sites_per_block; i < last; ++i) tracer.trace(all, sites[i], rows[b]);
-            stop_if_asked();
+            for (std::size_t i = b * sites_per_block; i < last; ++i) {
+                stop_if_asked(8 * i);
+                tracer.trace(all, sites[i], rows[b]);
+            }
             finish_work(static_cast<double>(last - b * sites_per_block));
         }
     };
     for_each_block(blocks, options.threads, work, {}, per_run);
     LastFlight result;
     for (LastFlight& block : rows) {
+        stop_if_asked();
         result.of_fluence.append(block.of_fluence);
         result.of_light.append(block.of_light);
         block = {};

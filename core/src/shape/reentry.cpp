@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/vector.h"
+#include "numerics/job.h"
 #include "numerics/parallel_blocks.h"
 #include "rays/direction_sampling.h"
 
@@ -40,6 +41,7 @@ Reentry::Reentry(const FleshSurface& surface, const SurfaceSites& sites, std::sp
         for (std::size_t b = begin; b < end; ++b) {
             const std::size_t last = std::min(chosen.size(), (b + 1) * sites_per_block);
             for (std::size_t i = b * sites_per_block; i < last; ++i) {
+                stop_if_asked(i);
                 const Site& site = sites.sites()[chosen[i]];
                 if (site.normal != glm::vec3(0.0F)) {
                     const glm::dmat3 frame = frame_around(glm::normalize(glm::dvec3(site.normal)));

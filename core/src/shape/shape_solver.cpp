@@ -64,7 +64,7 @@ bool shines_on(const ThinPart& part, std::span<const Lanes> light) {
 }
 
 SurfaceSites make_sites(const Body& body, const TriangleTree& tree, std::span<const glm::dvec3> points,
-                        std::span<const glm::dvec3> normals) {
+                        std::span<const glm::dvec3> normals, int threads) {
     if (points.empty()) return SurfaceSites(body);
     std::vector<glm::vec3> local;
     local.reserve(points.size());
@@ -75,7 +75,7 @@ SurfaceSites make_sites(const Body& body, const TriangleTree& tree, std::span<co
                             "up to 1e9 mm from the body's center");
     }
     const std::vector<glm::vec3> facing(normals.begin(), normals.end());
-    return {body, tree, local, facing};
+    return {body, tree, local, facing, threads};
 }
 
 }  // namespace
@@ -86,7 +86,7 @@ ShapeSolver::ShapeSolver(const MeshView& mesh, std::span<const glm::dvec3> point
     : options_(options),
       body_(mesh, options.unit_mm),
       surface_(body_, options.cell_mm),
-      sites_(make_sites(body_, surface_.tree(), points, normals)),
+      sites_(make_sites(body_, surface_.tree(), points, normals, options.threads)),
       medium_(medium),
       margin_(margin_of(medium, options)) {
     expect_work(static_cast<double>(sites_.sites().size()));

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "numerics/job.h"
 #include "shape/space_blocks.h"
 
 namespace skinglow::detail {
@@ -24,6 +25,7 @@ std::vector<Group> connected(const Body& body, const SurfaceSites& sites,
                              std::span<const std::uint32_t> chosen, double margin) {
     SpaceBlocks blocks(margin);
     for (const std::uint32_t i : chosen) {
+        stop_if_asked(i);
         for (const glm::vec3& p : sites.spread(body, sites.sites()[i], static_cast<float>(margin)))
             blocks.add(p, i);
     }

@@ -80,6 +80,7 @@ Sp3System::Sp3System(const VoxelGrid& grid, std::span<const BoundarySample> samp
     std::vector<std::uint8_t> is_special(grid.size(), 0);
     for (const BoundarySample& s : samples) is_special[s.cell] = 1;
     for (std::uint32_t c = 0; c < grid.size(); ++c) {
+        stop_if_asked(c);
         neighbors_[c] = grid.neighbors(c).cell;
         const auto count = std::count_if(neighbors_[c].begin(), neighbors_[c].end(),
                                          [&](std::uint32_t n) { return n < grid.size(); });
@@ -88,7 +89,9 @@ Sp3System::Sp3System(const VoxelGrid& grid, std::span<const BoundarySample> samp
         sums.push_back(inner(static_cast<int>(count), grid.neighbors(c).cuts));
     }
     const SurfaceLinks links(medium, max_sample_height * h);
-    for (const BoundarySample& s : samples) {
+    for (std::size_t n = 0; n < samples.size(); ++n) {
+        stop_if_asked(n);
+        const BoundarySample& s = samples[n];
         Sums& sum = sums[class_of_[s.cell]];
         const auto area = static_cast<double>(s.area);
         for (std::size_t k = 0; k < lane_count; ++k) {

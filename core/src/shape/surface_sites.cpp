@@ -5,6 +5,9 @@
 #include <glm/geometric.hpp>
 #include <map>
 
+#include "numerics/job.h"
+#include "numerics/parallel_blocks.h"
+
 namespace skinglow::detail {
 namespace {
 
@@ -37,6 +40,7 @@ SurfaceSites::SurfaceSites(const Body& body) : are_vertices_(true) {
     // its position.
     std::map<std::pair<std::uint32_t, std::vector<std::uint32_t>>, std::uint32_t> known;
     for (std::uint32_t v = 0; v < welded_of.size(); ++v) {
+        stop_if_asked(v);
         const std::uint32_t welded = welded_of[v];
         const auto around = body.triangles_at(welded);
         std::vector<std::uint32_t> own;
@@ -67,23 +71,24 @@ SurfaceSites::SurfaceSites(const Body& body) : are_vertices_(true) {
 }
 
 SurfaceSites::SurfaceSites(const Body& body, const TriangleTree& tree, std::span<const glm::vec3> points,
-                           std::span<const glm::vec3> normals)
-    : are_vertices_(false) {
-    sites_.reserve(points.size());
-    site_of_.resize(points.size());
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        const glm::vec3 facing = normals.empty() ? glm::vec3(0.0F) : normals[i];
-        Site site{points[i], facing};
-        if (const auto found = tree.nearest(points[i], facing)) {
-            const BodyTriangle& t = body.triangles()[found->triangle];
-            site.position = body.at(t, found->u, found->v);
-            site.normal = t.normal;
-            site.point = *found;
-            site.on_surface = true;
+                           std::span<const glm::vec3> normals, int threads)
+    : sites_(points.size()), site_of_(points.size()), are_vertices_(false) {
+    const auto work = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const glm::vec3 facing = normals.empty() ? glm::vec3(0.0F) : normals[i];
+            Site& site = sites_[i];
+            site = {points[i], facing};
+            if (const auto found = tree.nearest(points[i], facing)) {
+                const BodyTriangle& t = body.triangles()[found->triangle];
+                site.position = body.at(t, found->u, found->v);
+                site.normal = t.normal;
+                site.point = *found;
+                site.on_surface = true;
+            }
+            site_of_[i] = static_cast<std::uint32_t>(i);
         }
-        site_of_[i] = i;
-        sites_.push_back(site);
-    }
+    };
+    for_each_block(points.size(), threads, work);
 }
 
 std::vector<glm::vec3> SurfaceSites::spread(const Body& body, const Site& site, float length) const {

@@ -35,7 +35,7 @@ class SurfaceSites {
     /// Points on the surface; each is moved to the nearest one of the triangles that face along its normal.
     /// @param normals  one each, 0: of any triangle; or empty
     SurfaceSites(const Body& body, const TriangleTree& tree, std::span<const glm::vec3> points,
-                 std::span<const glm::vec3> normals);
+                 std::span<const glm::vec3> normals, int threads);
 
     const std::vector<Site>& sites() const { return sites_; }
     /// For each vertex or point given, its site.

@@ -60,8 +60,9 @@ SpaceBlocks vertices_by_light(const Body& body, double margin) {
     for (std::uint32_t v = 0; v < body.welded_of().size(); ++v)
         vertices.add(body.positions()[body.welded_of()[v]], v);
     // A large triangle brings light from corners that may be far away.
-    for (const BodyTriangle& t : body.triangles()) {
-        stop_if_asked();
+    for (std::size_t f = 0; f < body.triangles().size(); ++f) {
+        stop_if_asked(f);
+        const BodyTriangle& t = body.triangles()[f];
         for (int k = 0; k < 3; ++k) {
             const glm::vec3 a = body.corner(t, k);
             const glm::vec3 b = body.corner(t, (k + 1) % 3);
@@ -86,6 +87,7 @@ std::vector<float> site_weights(const SurfaceSites& sites, const std::vector<Sit
     }
     std::vector<float> weights(thickness.size(), 0.0F);
     for (std::size_t i = 0; i < thickness.size(); ++i) {
+        stop_if_asked(i);
         const Site& site = sites.sites()[i];
         if (!site.on_surface) continue;
         if (is_thin(thickness[i], max_thickness)) {
@@ -107,6 +109,7 @@ ThinPart make_part(const Body& body, const SurfaceSites& sites, std::vector<std:
     SpaceBlocks::Keys about;
     std::vector<float> sorted;
     for (const std::uint32_t i : part.sites) {
+        stop_if_asked(part.weight.size());
         part.weight.push_back(weights[i]);
         sorted.push_back(thickness[i].along_normal);
         for (const glm::vec3& p : sites.spread(body, sites.sites()[i], static_cast<float>(margin))) {
@@ -140,6 +143,7 @@ void share_vertices(const Body& body, const SurfaceSites& sites, double margin,
         }
         for (const std::uint32_t v : parts[p].vertices) {
             const double distance = to_part(body.positions()[body.welded_of()[v]]);
+            stop_if_asked(v);
             if (distance >= least[v]) continue;
             least[v] = distance;
             owner[v] = p;

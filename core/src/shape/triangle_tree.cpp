@@ -6,6 +6,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <numbers>
+#include <utility>
+
+#include "numerics/job.h"
 
 namespace skinglow::detail {
 namespace {
@@ -89,6 +92,7 @@ TriangleTree::TriangleTree(const Body& body) : body_(body) {
 void TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
     const auto& triangles = body_.triangles();
     const std::size_t index = nodes_.size();
+    stop_if_asked(index);
     nodes_.emplace_back();
     glm::dvec3 center(0.0);
     glm::dvec3 dipole(0.0);
@@ -160,25 +164,40 @@ double TriangleTree::winding(const glm::vec3& point) const {
 std::optional<SurfacePoint> TriangleTree::nearest(const glm::vec3& point, const glm::vec3& facing) const {
     std::optional<SurfacePoint> best;
     float best_distance = std::numeric_limits<float>::infinity();
-    for (std::size_t i = 0; i < nodes_.size();) {
-        const Node& node = nodes_[i];
-        if (glm::length(node.center - point) - node.radius >= best_distance) {
-            i = node.skip;
+    std::uint32_t best_place = 0;
+    const auto bound = [&](std::uint32_t node) {
+        return glm::length(nodes_[node].center - point) - nodes_[node].radius;
+    };
+    // The nearer child first; halves of what is left leave no more than 32 open.
+    struct Open {
+        std::uint32_t node;
+        float bound;
+    };
+    std::array<Open, 64> open;
+    std::size_t count = 0;
+    if (!nodes_.empty()) open[count++] = {0, bound(0)};
+    while (count > 0) {
+        const Open next = open[--count];
+        if (next.bound > best_distance) continue;
+        const Node& node = nodes_[next.node];
+        if (!node.is_leaf) {
+            Open near{next.node + 1, bound(next.node + 1)};
+            Open far{nodes_[near.node].skip, bound(nodes_[near.node].skip)};
+            if (far.bound < near.bound) std::swap(near, far);
+            open[count++] = far;
+            open[count++] = near;
             continue;
         }
-        if (node.is_leaf) {
-            for (std::uint32_t k = node.begin; k < node.end; ++k) {
-                const BodyTriangle& t = body_.triangles()[order_[k]];
-                if (facing != glm::vec3(0.0F) && glm::dot(facing, t.normal) <= 0) continue;
-                const glm::vec2 uv =
-                    nearest_of_triangle(point, body_.corner(t, 0), body_.corner(t, 1), body_.corner(t, 2));
-                const float distance = glm::length(body_.at(t, uv.x, uv.y) - point);
-                if (distance >= best_distance) continue;
-                best_distance = distance;
-                best = SurfacePoint{order_[k], uv.x, uv.y};
-            }
+        for (std::uint32_t k = node.begin; k < node.end; ++k) {
+            const BodyTriangle& t = body_.triangles()[order_[k]];
+            if (facing != glm::vec3(0.0F) && glm::dot(facing, t.normal) <= 0) continue;
+            const glm::vec2 uv = nearest_of_triangle(point, corners_[k][0], corners_[k][1], corners_[k][2]);
+            const float distance = glm::length(body_.at(t, uv.x, uv.y) - point);
+            if (distance > best_distance || (distance == best_distance && best && k > best_place)) continue;
+            best_distance = distance;
+            best_place = k;
+            best = SurfacePoint{order_[k], uv.x, uv.y};
         }
-        ++i;
     }
     return best;
 }

@@ -32,7 +32,7 @@ class TriangleTree {
     double winding(const glm::vec3& point) const;
 
     /// The nearest point of the triangles that face along a normal (any, where it is 0); none where no
-    /// triangle does.
+    /// triangle does. Of equally near ones the first in the tree.
     std::optional<SurfacePoint> nearest(const glm::vec3& point, const glm::vec3& facing) const;
 
   private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "numerics/job.h"
 #include "shape/flesh_cells.h"
 
 namespace skinglow::detail {
@@ -94,6 +95,7 @@ std::vector<std::uint8_t> VoxelGrid::mark_near(std::span<const glm::vec3> center
     const double radius = margin / static_cast<double>(cell_);
     const auto mark = [&](const std::vector<Run>& runs, std::uint8_t value) {
         for (const std::uint64_t voxel : voxels) {
+            stop_if_asked();
             const auto z = static_cast<int>(voxel % static_cast<std::uint64_t>(extent_.z));
             const auto row = static_cast<int>(voxel / static_cast<std::uint64_t>(extent_.z));
             for (const Run& run : runs) {
@@ -133,6 +135,7 @@ void VoxelGrid::number_cells() {
     }
     neighbors_.resize(cells.size());
     for (std::size_t c = 0; c < cells.size(); ++c) {
+        stop_if_asked(c);
         const auto row = static_cast<int>(cells[c] / z_extent);
         const glm::ivec3 voxel(row / extent_.y, row % extent_.y, static_cast<int>(cells[c] % z_extent));
         for (int d = 0; d < 6; ++d) {

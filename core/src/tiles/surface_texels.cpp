@@ -52,12 +52,15 @@ class Rasterizer {
         : mesh_(mesh), to_unit_(to_unit), texels_(texels), last_row_(static_cast<double>(height) - 1) {
         result_.triangle.assign(height * tile_image_width, SurfaceTexels::none);
         result_.distance.assign(height * tile_image_width, 0.0F);
-        areas_.assign(mesh.triangles().size(), 0.0F);
+        areas_.assign(mesh.triangles().size(), -1.0F);
         holds_.assign(mesh.triangles().size(), 0);
     }
 
     SurfaceTexels run() {
-        for (std::uint32_t i = 0; i < areas_.size(); ++i) add(i);
+        for (std::uint32_t i = 0; i < areas_.size(); ++i) cover(i);
+        for (std::uint32_t i = 0; i < areas_.size(); ++i) {
+            if (areas_[i] >= 0) extend(i);
+        }
         for (std::size_t i = 0; i < areas_.size(); ++i) {
             if (holds_[i] != 0) result_.held_area += areas_[i];
             if ((holds_[i] & elsewhere) != 0) result_.overlapping_area += areas_[i];
@@ -69,45 +72,57 @@ class Rasterizer {
     static constexpr std::uint8_t a_texel = 1;
     static constexpr std::uint8_t elsewhere = 2;
 
-    void add(std::uint32_t i) {
+    /// Texels that lie in a triangle.
+    void cover(std::uint32_t i) {
         const std::int64_t tile = tile_of(corners(i));
         if (tile == 0) return;
         const double area =
             0.5 * glm::length(glm::cross(point(i, 1) - point(i, 0), point(i, 2) - point(i, 0)));
-        areas_[i] = static_cast<float>(area);
         result_.area += area;
         if (tile < 0) {
             result_.mixed_area += area;
             return;
         }
+        areas_[i] = static_cast<float>(area);
         const TexelTriangle triangle(corners(i));
         result_.texel_area += triangle.area();
-        const auto first = glm::max(glm::floor(triangle.low()) - 1.0, 0.0);
-        const auto last =
-            glm::min(glm::floor(triangle.high()) + 2.0, glm::dvec2(tile_image_width - 1, last_row_));
-        for (double y = first.y; y <= last.y; ++y) {
-            for (double x = first.x; x <= last.x; ++x) {
-                if (triangle.reads({x, y})) claim(i, triangle, {x, y});
-            }
-        }
+        for_each_texel(glm::ceil(triangle.low() - on_edge), glm::floor(triangle.high() + on_edge),
+                       [&](std::size_t at, const glm::dvec2& texel) {
+                           if (triangle.depth(texel) < -on_edge) return;
+                           holds_[i] |= a_texel;
+                           std::uint32_t& holder = result_.triangle[at];
+                           if (holder == SurfaceTexels::none) {
+                               holder = i;
+                           } else if (is_elsewhere(holder, i, triangle, texel)) {
+                               holds_[i] |= elsewhere;
+                               holds_[holder] |= elsewhere;
+                           }
+                       });
     }
 
-    void claim(std::uint32_t i, const TexelTriangle& triangle, const glm::dvec2& texel) {
-        const std::size_t at =
-            static_cast<std::size_t>(texel.y) * tile_image_width + static_cast<std::size_t>(texel.x);
-        const double distance = triangle.distance(texel);
-        std::uint32_t& holder = result_.triangle[at];
-        if (distance == 0) {
-            holds_[i] |= a_texel;
-            if (holder != SurfaceTexels::none && result_.distance[at] == 0 &&
-                is_elsewhere(holder, i, triangle, texel)) {
-                holds_[i] |= elsewhere;
-                holds_[holder] |= elsewhere;
-            }
+    /// Texels that no triangle covers, and that are read for points of this one.
+    void extend(std::uint32_t i) {
+        const TexelTriangle triangle(corners(i));
+        for_each_texel(glm::floor(triangle.low()) - 1.0, glm::floor(triangle.high()) + 2.0,
+                       [&](std::size_t at, const glm::dvec2& texel) {
+                           const bool is_held = result_.triangle[at] != SurfaceTexels::none;
+                           if ((is_held && result_.distance[at] == 0) || !triangle.reads(texel)) return;
+                           const auto distance = static_cast<float>(
+                               std::max(glm::length(texel - triangle.at(triangle.nearest(texel))), on_edge));
+                           if (is_held && !(distance < result_.distance[at])) return;
+                           result_.triangle[at] = i;
+                           result_.distance[at] = distance;
+                       });
+    }
+
+    template <typename Use>
+    void for_each_texel(const glm::dvec2& low, const glm::dvec2& high, const Use& use) const {
+        const double last_x = std::min(high.x, static_cast<double>(tile_image_width - 1));
+        const double last_y = std::min(high.y, last_row_);
+        for (double y = std::max(low.y, 0.0); y <= last_y; ++y) {
+            for (double x = std::max(low.x, 0.0); x <= last_x; ++x)
+                use(static_cast<std::size_t>(y) * tile_image_width + static_cast<std::size_t>(x), {x, y});
         }
-        if (holder != SurfaceTexels::none && !(distance < result_.distance[at])) return;
-        holder = i;
-        result_.distance[at] = static_cast<float>(distance);
     }
 
     /// Whether a texel lies in two triangles at places more than a tenth of a texel apart.
@@ -134,7 +149,7 @@ class Rasterizer {
     const UnitBox& to_unit_;
     std::span<const glm::vec3> texels_;
     double last_row_;
-    std::vector<float> areas_;
+    std::vector<float> areas_;         ///< of each triangle; -1: does not lie in one tile
     std::vector<std::uint8_t> holds_;  ///< of each triangle, a_texel and elsewhere
     SurfaceTexels result_;
 };

@@ -44,7 +44,13 @@ TargetBuilder::TargetBuilder(const MeshView& mesh, const UnitBox& to_unit, std::
       welded_(weld(mesh.vertices())),
       normals_(vertex_normals(mesh, to_unit, welded_)),
       of_vertex_(welded_.first.size(), none),
-      heads_(std::bit_ceil(texels + 1), none) {}
+      heads_(std::bit_ceil(texels + 1), none) {
+    targets_.points.reserve(texels);
+    targets_.normals.reserve(texels);
+    targets_.corners.reserve(texels);
+    targets_.weights.reserve(texels);
+    on_edges_.reserve(texels);
+}
 
 std::int32_t TargetBuilder::within(const glm::uvec3& corners, const TexelTriangle& triangle,
                                    const glm::dvec2& texel) {

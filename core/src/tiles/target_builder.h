@@ -25,7 +25,7 @@ struct SurfacePoints {
 /// Makes the targets of texels, one for all texels at a corner of triangles or at a point of an edge.
 class TargetBuilder {
   public:
-    /// @param texels      about how many there will be
+    /// @param texels      how many there are at most
     /// @param texel_size  in the unit box
     TargetBuilder(const MeshView& mesh, const UnitBox& to_unit, std::size_t texels, double texel_size);
 

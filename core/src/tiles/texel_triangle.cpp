@@ -26,33 +26,6 @@ TexelTriangle::TexelTriangle(std::span<const glm::vec3, 3> corners) {
     if (std::abs(twice) > flat * std::max(longest, flat)) area_ = 0.5 * std::abs(twice);
 }
 
-double TexelTriangle::side(int k, const glm::dvec2& texel) const {
-    return glm::dot(inward_[k], texel - corners_[(k + 1) % 3]);
-}
-
-bool TexelTriangle::reads(const glm::dvec2& texel) const {
-    constexpr double slack = 1 + 5e-4;  // for rounding; less than a face is from its tile's border
-    // The square of points that read a texel has half an edge of 1: apart from the triangle along one of the axes or of
-    // its edges' normals, or not at all.
-    if (glm::any(glm::lessThan(texel, low_ - slack)) || glm::any(glm::greaterThan(texel, high_ + slack)))
-        return false;
-    if (area_ == 0) return true;
-    for (int k = 0; k < 3; ++k) {
-        if (side(k, texel) < -slack * (std::abs(inward_[k].x) + std::abs(inward_[k].y))) return false;
-    }
-    return true;
-}
-
-double TexelTriangle::distance(const glm::dvec2& texel) const {
-    if (area_ > 0) {
-        double outside = 0;
-        for (int k = 0; k < 3; ++k) outside = std::max(outside, -side(k, texel) / length_[k]);
-        if (outside <= on_edge) return 0;
-    }
-    const double distance = glm::length(texel - at(nearest(texel)));
-    return distance > on_edge ? distance : 0;
-}
-
 glm::dvec3 TexelTriangle::weights(const glm::dvec2& texel) const {
     if (area_ == 0) return nearest(texel);
     const glm::dvec3 w(side(0, texel), side(1, texel), side(2, texel));
@@ -79,19 +52,15 @@ glm::dvec3 TexelTriangle::nearest(const glm::dvec2& texel) const {
     return found;
 }
 
-glm::dvec2 TexelTriangle::at(const glm::dvec3& weights) const {
-    return weights.x * corners_[0] + weights.y * corners_[1] + weights.z * corners_[2];
-}
-
 glm::dvec3 TexelTriangle::snapped(const glm::dvec2& texel) const {
+    if (depth(texel) > on_edge) return weights(texel);
     for (int k = 0; k < 3; ++k) {
         if (glm::length(texel - corners_[k]) > on_edge) continue;
         glm::dvec3 corner(0.0);
         corner[k] = 1;
         return corner;
     }
-    const glm::dvec3 on_nearest = nearest(texel);
-    return glm::length(texel - at(on_nearest)) > on_edge ? weights(texel) : on_nearest;
+    return nearest(texel);
 }
 
 }  // namespace skinglow::detail

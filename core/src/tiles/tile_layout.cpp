@@ -15,8 +15,7 @@ namespace skinglow::detail {
 namespace {
 
 constexpr std::uint32_t max_cells = tile_image_width - 1;
-/// Faces whose edges are all shorter, in spacings, share the tiles of a plane; longer ones take at most 4 texels a
-/// square of this edge.
+/// Faces whose edges are all shorter, in spacings, share the tiles of a plane; quads of this edge have 4 texels each.
 constexpr double dense_edge = 0.75;
 /// Of such a tile, in spacings.
 constexpr double max_chart_extent = 12;
@@ -27,10 +26,14 @@ constexpr double min_pair_cosine = 0.5;
 /// A plane is taken where it has this many times fewer texels than the face's own grid.
 constexpr std::uint64_t plane_saving = 2;
 
+std::uint32_t cells(double count) {
+    return static_cast<std::uint32_t>(std::clamp(count, 1.0, static_cast<double>(max_cells)));
+}
+
+/// Of an edge.
 std::uint32_t cells(double length, double spacing) {
-    // Not to add a row for a length that is a whole number of spacings but for rounding.
-    return static_cast<std::uint32_t>(
-        std::clamp(std::ceil(length / spacing - 1e-6), 1.0, static_cast<double>(max_cells)));
+    // To the nearest, not up: the edges of scans are about as long as the spacing, and most would be cut in two.
+    return cells(std::round(length / spacing));
 }
 
 std::uint64_t texels(const glm::uvec2& size) {
@@ -38,8 +41,8 @@ std::uint64_t texels(const glm::uvec2& size) {
 }
 
 glm::uvec2 chart_size(const PlaneChart& chart, double spacing) {
-    return {cells(chart.extent().x, plane_spacing * spacing),
-            cells(chart.extent().y, plane_spacing * spacing)};
+    const glm::dvec2 size = glm::ceil(chart.extent() / (plane_spacing * spacing) - 1e-6);  // but for rounding
+    return {cells(size.x), cells(size.y)};
 }
 
 class Builder {
@@ -140,9 +143,14 @@ class Builder {
 
     void add_single(std::uint32_t face) {
         const std::uint32_t sides = faces_.size(face);
+        const std::uint32_t begin = faces_.begin()[face];
         const auto length = [&](std::uint32_t k) { return glm::length(faces_.edge(face, k)); };
-        glm::uvec2 size(cells(faces_.longest_edge(face), spacing_));
-        if (sides == 4) {
+        // A triangle's longest edge is the diagonal of its tile.
+        const std::uint32_t apex = sides == 3 ? (longest_corner(face) - begin + 2) % 3 : 0;
+        glm::uvec2 size(1);
+        if (sides == 3) {
+            size = {cells(length(apex), spacing_), cells(length((apex + 2) % 3), spacing_)};
+        } else if (sides == 4) {
             size = {cells(std::max(length(0), length(2)), spacing_),
                     cells(std::max(length(1), length(3)), spacing_)};
         }
@@ -152,11 +160,10 @@ class Builder {
             return;
         }
         begin_tile(size);
-        const std::uint32_t begin = faces_.begin()[face];
         const glm::dvec2 full(size);
-        place(begin, {0.0, 0.0});
-        place(begin + 1, {full.x, 0.0});
-        place(begin + 2, sides == 4 ? full : glm::dvec2(0.0, full.y));
+        place(begin + apex, {0.0, 0.0});
+        place(begin + (apex + 1) % sides, {full.x, 0.0});
+        place(begin + (apex + 2) % sides, sides == 4 ? full : glm::dvec2(0.0, full.y));
         if (sides == 4) place(begin + 3, {0.0, full.y});
         assign(face);
     }

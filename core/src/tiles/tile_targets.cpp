@@ -47,11 +47,15 @@ TileTargets::TileTargets(const MeshView& mesh, std::span<const glm::vec3> texels
                                              triangles.begin(), triangles.end(), SurfaceTexels::none));
     TargetBuilder builder(mesh, to_unit, used, texel_size);
     of_texel_.assign(triangles.size(), -1);
+    std::uint32_t last = SurfaceTexels::none;
+    TexelTriangle triangle;
     for (std::size_t at = 0; at < triangles.size(); ++at) {
         if (triangles[at] == SurfaceTexels::none) continue;
-        const TexelTriangle triangle(texels.subspan(3 * std::size_t{triangles[at]}).first<3>());
+        if (triangles[at] != last)
+            triangle = TexelTriangle(texels.subspan(3 * std::size_t{triangles[at]}).first<3>());
+        last = triangles[at];
         const glm::dvec2 texel(at % tile_image_width, at / tile_image_width);
-        const glm::uvec3& corners = mesh.triangles()[triangles[at]];
+        const glm::uvec3& corners = mesh.triangles()[last];
         of_texel_[at] = surface.distance[at] == 0 ? builder.within(corners, triangle, texel)
                                                   : builder.beyond(corners, triangle, texel);
     }

@@ -1,11 +1,14 @@
 """The operators as scripts and buttons call them, and the panel's drawing, without a window."""
 
+import webbrowser
+
 import bpy
 import numpy as np
 import skinglow_blender as sb
 from skinglow_blender.session import SESSION
-from skinglow_blender.ui import menus
+from skinglow_blender.ui import manual, menus
 
+from inside.bad_input import refused
 from inside.scenes import add_light, assert_fresh, camera_above, depsgraph, patch
 
 sb.register()
@@ -111,6 +114,22 @@ def check_nothing_is_tagged_when_lights_stay(_work):
     finally:
         bpy.app.handlers.depsgraph_update_post.pop()
     assert len(reports) == 1 and "Other" in reports[0], reports
+
+
+def check_manual(work):
+    """Opened in the browser from the package; the source, which has no pages made of its docs, says so."""
+    opened, page = [], work / "a folder" / "manual" / "blender.html"
+    webbrowser_open, first_page = webbrowser.open, manual.FIRST_PAGE
+    webbrowser.open = opened.append
+    try:
+        manual.FIRST_PAGE = page
+        refused(RuntimeError, "read docs/blender.md", bpy.ops.skinglow.manual)
+        page.parent.mkdir(parents=True)
+        page.write_text("<p>Skinglow</p>")
+        assert bpy.ops.skinglow.manual() == {"FINISHED"}
+    finally:
+        webbrowser.open, manual.FIRST_PAGE = webbrowser_open, first_page
+    assert opened == [page.as_uri()] and "%20" in opened[0]
 
 
 def check_entries_in_blenders_menus(_work):

@@ -7,7 +7,8 @@ from skinglow_blender.batch import rigs
 from skinglow_blender.identity import HAS_UID, key_of
 from skinglow_blender.session import SESSION
 
-from inside.scenes import add_light, camera_above, depsgraph, link, patch, render_settings
+from inside.scenes import BLOOD, add_light, camera_above, depsgraph, link, patch, render_settings
+from inside.world_scenes import image_world
 
 THIN = [0.0, 1.0, 2.0, 3.0]
 
@@ -89,6 +90,30 @@ def check_light_linking_by_object(work):
     assert sb.light_report(linked, graph)[0]["reason"] == "light linking excludes this object"
 
 
+def check_hidden_light_of_the_name_of_a_linked_one(work):
+    """Each is listed with what is true of it."""
+    linked_copy(work, "Head")
+    with bpy.data.libraries.load(str(work / "library.blend"), link=True) as (_source, target):
+        target.objects = ["Other light"]
+    shown, hidden, apart = link(target.objects[0]), add_light("Other light"), bpy.data.collections.new("Apart")
+    assert shown.name == hidden.name
+    obj = patch("Local")
+    sb.make_skin(obj, thickness=THIN, mode="physical")
+    hidden.hide_set(True)
+
+    def reasons():
+        rows = sb.light_report(obj, depsgraph())
+        assert [row["name"] for row in rows] == [shown.name] * 2
+        return {row["object"]: row["reason"] for row in rows}
+
+    assert reasons() == {key_of(shown): "", key_of(hidden): "hidden in the viewport"}
+    bpy.context.scene.collection.children.link(apart)
+    apart.objects.link(hidden)
+    bpy.context.scene.collection.objects.unlink(hidden)
+    bpy.context.view_layer.layer_collection.children["Apart"].exclude = True
+    assert reasons()[key_of(hidden)] == "its collection is hidden or excluded from the view layer"
+
+
 def check_rig_named_like_an_instance(work):
     """A light whose name contains " in ", next to one that is the first part of it."""
     obj = patch()
@@ -118,3 +143,47 @@ def check_instance_of_a_light_in_a_rig(_work):
     bpy.context.view_layer.objects.active = obj
     assert bpy.ops.skinglow.select_light(light=row["name"], key=row["object"]) == {"FINISHED"}
     assert instancer.select_get()
+
+
+def check_make_on_the_linked_one_of_two_full_names(work):
+    """The button acts on what is selected, not on the local object of that full name."""
+    linked = linked_copy(work, "Head")
+    add_light()
+    local = patch(linked.name_full)
+    for obj, chosen in ((linked, True), (local, False)):
+        obj.select_set(chosen)
+    bpy.context.view_layer.objects.active = linked
+    try:
+        bpy.ops.skinglow.make()
+    except RuntimeError as error:
+        assert linked.name in str(error), error
+    assert linked.skinglow.enabled and not local.skinglow.enabled
+
+
+def check_images_of_one_full_name(work):
+    """A base lookup and a world of linked images, beside local ones that have their full names."""
+    levels = {"Base": 0.25, "World": 0.5}
+    for name, level in levels.items():
+        image = bpy.data.images.new(name, 4, 4, float_buffer=True)
+        image.colorspace_settings.name = "Non-Color"
+        image.pixels.foreach_set([level, level, level, 1.0] * 16)
+        image.pack()
+        image.use_fake_user = True
+    bpy.ops.wm.save_as_mainfile(filepath=str(work / "images.blend"))
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(str(work / "images.blend"), link=True) as (_source, target):
+        target.images = list(levels)
+    images = dict(zip(levels, target.images, strict=True))
+    for image in images.values():
+        black = bpy.data.images.new(image.name_full, 4, 4, float_buffer=True)
+        assert black.name_full == image.name_full and image.library
+    obj = patch()
+    image_world(images["World"])
+    sb.make_skin(obj, thickness=THIN, mode="paper", base="image", base_image=images["Base"])
+    table = sb.lut(obj, depsgraph())
+    np.testing.assert_allclose(table, np.tile(levels["Base"] * BLOOD, (4, 1)), rtol=1e-5)
+    obj.skinglow.mode = "PHYSICAL"
+    depsgraph()
+    (row,) = (row for row in sb.light_report(obj, depsgraph()) if row["kind"] == "WORLD")
+    assert np.all(np.asarray(row["weight"]) > 0.0), row
+    assert sb.health(obj) == []

@@ -71,8 +71,9 @@ class Walk(MeshEdits):
     def from_library(self, linked, names):
         with bpy.data.libraries.load(str(self.folder / LIBRARY), link=linked) as (_source, target):
             target.objects = names
+        there = set(bpy.context.scene.collection.objects)
         for obj in target.objects:
-            if obj.name not in bpy.context.scene.collection.objects:
+            if obj not in there:
                 link(obj)
         return target.objects
 

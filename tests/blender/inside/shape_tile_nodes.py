@@ -4,6 +4,7 @@ import bmesh
 import bpy
 import numpy as np
 import skinglow_blender as sb
+from skinglow_blender.live import handlers
 from skinglow_blender.show.group_nodes import GroupNodes, build_nodes, nodes_of
 from skinglow_blender.show.lut_image import LAYOUT_PROPERTY, images_of
 from skinglow_blender.show.tile_image import TILE_PROPERTY, TILES, place_tiles, set_tile_property, show_tiles
@@ -134,8 +135,8 @@ def check_saved_and_removed(work):
         for mode in ("VIEWPORT", "RENDER"):
             fill(group, [left, right], mode, constant(0.25))
         before = render(work / "before.exr")
-    bpy.ops.wm.save_as_mainfile(filepath=str(work / "tiles.blend"))
-    with without_updates():
+        handlers.on_save(None, None)
+        bpy.ops.wm.save_as_mainfile(filepath=str(work / "tiles.blend"))
         bpy.ops.wm.open_mainfile(filepath=str(work / "tiles.blend"))
         np.testing.assert_allclose(render(work / "after.exr"), before, rtol=1e-6)
     for name in ("Left", "Right"):

@@ -101,7 +101,9 @@ class SceneEdits:
             obj.hide_render = not obj.hide_render
 
     def hide_with_h(self):
-        obj = self.pick([o for o in self.lights() if o.name in bpy.context.view_layer.objects])
+        # Not by name: a library's light has the name of its override.
+        shown = set(bpy.context.view_layer.objects)
+        obj = self.pick([o for o in self.lights() if o in shown])
         if obj is not None:
             obj.hide_set(not obj.hide_get())
 

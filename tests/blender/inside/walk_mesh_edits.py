@@ -55,7 +55,7 @@ class MeshEdits(SceneEdits):
         mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
         other = bpy.data.objects.new("Joined", mesh)
         bpy.context.view_layer.active_layer_collection.collection.objects.link(other)
-        if other.name not in bpy.context.view_layer.objects or not other.visible_get():
+        if other not in set(bpy.context.view_layer.objects) or not other.visible_get():
             bpy.data.objects.remove(other)
             return
         other.select_set(True)

@@ -1,0 +1,174 @@
+"""What light in tiles costs: a frame of Cycles against plain emission and the other ways of the add-on, and new pixels.
+
+Run in a Blender whose Python finds skinglow:
+
+    python tests/benchmarks/tiles_in_blender.py [SEGMENTS]     # a bpy wheel; default 200: 20,000 vertices
+
+    frame    CPU time of a Cycles frame, 128 x 128 at 64 samples, one thread, the smallest of five, s; with a black
+             surface, so that the nodes weigh most, and with a Principled BSDF that four lights shine on; in turns
+    write    from pixels in memory to the image of the renderer that is shown, median of 50, ms, by the image's rows
+"""
+
+import os
+import resource
+import statistics
+import sys
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "blender_addon"))
+
+import bpy  # noqa: E402
+import numpy as np  # noqa: E402
+import skinglow as sg  # noqa: E402
+import skinglow_blender as sb  # noqa: E402
+from skinglow_blender.live import handlers  # noqa: E402
+from skinglow_blender.show.group_nodes import GroupNodes, build_nodes  # noqa: E402
+from skinglow_blender.show.tile_image import TILES, place_tiles, show_tiles, tile_atlas  # noqa: E402
+from skinglow_blender.table.lut_layout import Layout  # noqa: E402
+from skinglow_blender.thickness.tile_attribute import ensure_tiles, rows_of  # noqa: E402
+
+ROUNDS = 5
+#: Nodes of the skin's group, and whether the object shows tiles.
+WAYS = {
+    "one weight": (GroupNodes(), False),
+    "tiles": (GroupNodes(tiles=True, rows=False), True),
+    "tiles and rows": (GroupNodes(tiles=True), True),
+    "per pixel, 4 lights": (GroupNodes(Layout(256, 2, 2, False)), False),
+}
+
+
+def scene(segments: int) -> bpy.types.Object:
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=segments, ring_count=segments // 2, radius=30.0)
+    ball = bpy.context.object
+    ball.data.polygons.foreach_set("use_smooth", [True] * len(ball.data.polygons))
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    camera.location, camera.data.clip_end = (0.0, 0.0, 100.0), 1000.0
+    bpy.context.collection.objects.link(camera)
+    for i in range(4):
+        light = bpy.data.objects.new(f"Light {i}", bpy.data.lights.new(f"Light {i}", "POINT"))
+        light.location, light.data.energy = (60.0 * (i % 2) - 30.0, 60.0 * (i // 2) - 30.0, 80.0), 1e5
+        bpy.context.collection.objects.link(light)
+    render, cycles = bpy.context.scene.render, bpy.context.scene.cycles
+    bpy.context.scene.camera, render.engine = camera, "CYCLES"
+    cycles.samples, cycles.use_denoising, cycles.use_adaptive_sampling = 64, False, False
+    cycles.filter_width = 0.01
+    render.resolution_x = render.resolution_y = 128
+    render.threads_mode, render.threads = "FIXED", 1
+    return ball
+
+
+def tree_of(material: bpy.types.Material) -> bpy.types.NodeTree:
+    if bpy.app.version < (5, 0, 0):
+        material.use_nodes = True
+    return material.node_tree
+
+
+def black_surface(material: bpy.types.Material) -> None:
+    tree = tree_of(material)
+    tree.nodes.clear()
+    emission, output = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeOutputMaterial")
+    emission.inputs["Strength"].default_value = 0.0
+    tree.links.new(emission.outputs[0], output.inputs["Surface"])
+
+
+def plain_emission(material: bpy.types.Material) -> None:
+    """Emission of one color added to the surface, as the skin's node does it."""
+    tree = tree_of(material)
+    surface = next(node for node in tree.nodes if node.bl_idname == "ShaderNodeOutputMaterial").inputs["Surface"]
+    emission, add = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeAddShader")
+    emission.inputs["Strength"].default_value = 0.3
+    tree.links.new(surface.links[0].from_socket, add.inputs[0])
+    tree.links.new(emission.outputs[0], add.inputs[1])
+    tree.links.new(add.outputs[0], surface)
+    sb.blender_version.set_emission_sampling(material, sb.blender_version.NO_EMISSION_SAMPLING)
+
+
+def show_random(ball: bpy.types.Object, mode: str) -> None:
+    group = ball.skinglow.group
+    ensure_tiles(ball, bpy.context.scene)
+    (first,) = place_tiles(group, {ball: rows_of(ball.data)}).values()
+    atlas = tile_atlas(group, mode)
+    pixels = np.random.default_rng(1).random((rows_of(ball.data), sg.FaceTiles.WIDTH, 4), np.float32)
+    atlas.put(sb.identity.key_of(ball), first, None, pixels)
+    atlas.write(group)
+    atlas.show(group)
+    show_tiles(ball, atlas, first)
+
+
+def cpu_seconds() -> float:
+    before = resource.getrusage(resource.RUSAGE_SELF)
+    bpy.ops.render.render()
+    after = resource.getrusage(resource.RUSAGE_SELF)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def frames(segments: int, principled: bool) -> dict[str, float]:
+    """Smallest times by way; all are made in one scene and shown in turns, as the machine is not alone."""
+    ball = scene(segments)
+    plain = bpy.data.materials.new("Plain")
+    tree_of(plain)
+    if not principled:
+        black_surface(plain)
+    skin_material = plain.copy()
+    plain_emission(plain)
+    ball.data.materials.append(skin_material)
+    sb.make_skin(ball, thickness=[2.0] * len(ball.data.vertices), unit_mm=1.0, mode="physical", weights="object")
+    handlers.unregister()
+    best: dict[str, float] = {}
+    for _ in range(ROUNDS):
+        ball.data.materials[0] = plain
+        best["emission"] = min(best.get("emission", 1e9), cpu_seconds())
+        ball.data.materials[0] = skin_material
+        for name, (nodes, shows_tiles) in WAYS.items():
+            build_nodes(ball.skinglow.group, nodes)
+            if shows_tiles:
+                show_random(ball, "RENDER")
+            else:
+                show_tiles(ball, None)
+            best[name] = min(best.get(name, 1e9), cpu_seconds())
+    handlers.register()
+    return best
+
+
+def writes(segments: int) -> None:
+    ball = scene(segments)
+    sb.make_skin(ball, thickness=[2.0] * len(ball.data.vertices), unit_mm=1.0, mode="physical", weights="object")
+    handlers.unregister()
+    group = ball.skinglow.group
+    build_nodes(group, WAYS["tiles"][0])
+    show_random(ball, "RENDER")
+    for rows in (64, 128, 256, 512):
+        TILES.renew(group, sg.FaceTiles.WIDTH, rows)
+        for mode in ("VIEWPORT", "RENDER"):
+            atlas = tile_atlas(group, mode)
+            atlas.write(group)
+            times = []
+            for i in range(50):
+                atlas.pixels[0, 0, 0] = i
+                started = time.perf_counter()
+                atlas.write(group)
+                atlas.show(group)
+                times.append(1e3 * (time.perf_counter() - started))
+            what = "swapped" if mode == "RENDER" else "in place"
+            print(f"RESULT write {rows:4} rows, {what:8}  {statistics.median(times):6.2f} ms")
+            sys.stdout.flush()
+    handlers.register()
+
+
+def main() -> None:
+    segments = int(sys.argv[1]) if len(sys.argv) > 1 else 200
+    print(f"Blender {bpy.app.version_string}")
+    for principled in (False, True):
+        best = frames(segments, principled)
+        for name, seconds in best.items():
+            surface = "Principled, 4 lights" if principled else "black surface"
+            print(f"RESULT frame {surface:20}  {name:20} {seconds:6.2f} s ({seconds / best['emission']:4.2f}x)")
+            sys.stdout.flush()
+    writes(segments)
+
+
+main()
+# The 4.5 wheel never comes back from an ordinary exit.
+os._exit(0)
