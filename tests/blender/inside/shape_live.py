@@ -1,10 +1,12 @@
 """Light through the shape follows what people do: what the tiles show equals a fresh computation."""
 
+import bpy
+import numpy as np
 import skinglow as sg
 import skinglow_blender as sb
 
 from inside.scenes import add_light, depsgraph
-from inside.shape_scenes import assert_through, assert_through_turned, lobe, shape_skin, sun, turn
+from inside.shape_scenes import assert_through, assert_through_turned, differences, lobe, shape_skin, sun, turn
 
 
 def check_lights_and_places(_work):
@@ -56,3 +58,31 @@ def check_tissue_and_medium(_work):
     obj.skinglow.preset = "LIGHT"
     obj.skinglow.cell_mm, obj.skinglow.reentries = 1.3, 0
     assert_through(obj, cell_mm=1.3, reentries=0)
+
+
+def check_occlusion_and_world(_work):
+    sun(direction=(0.0, 0.0, 1.0))
+    obj = lobe(levels=2)
+    shape_skin(obj)
+    obj.location, obj.rotation_euler = (3.0, 4.0, 5.0), (0.0, 0.0, 0.3)
+    bpy.ops.mesh.primitive_plane_add(size=8.0, location=(7.0, 4.0, -5.0))
+    wall = bpy.context.object
+    free = differences(obj, depsgraph(), True)[1]
+    bpy.context.scene.skinglow.occlusion = True
+    sb.update(depsgraph())
+    corners = np.array([wall.matrix_world @ v.co for v in wall.data.vertices]) - np.array(obj.location)
+    scene = sg.Occluders([(corners, [(0, 1, 3), (0, 3, 2)])])
+    error, mean = differences(obj, depsgraph(), True, occluders=scene)
+    assert error < 0.1 * mean and mean < 0.8 * free, (error, mean, free)
+    wall.location.x += 100.0
+    sb.update(depsgraph())
+    assert_through_turned(obj)
+    world = bpy.data.worlds.new("World")
+    world.color = (0.3, 0.1, 0.05)
+    if world.node_tree is not None:
+        world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.3, 0.1, 0.05, 1.0)
+    bpy.context.scene.world = world
+    sb.update(depsgraph())
+    environment = sg.Environment((0.3, 0.1, 0.05))
+    obj.rotation_euler.z = 0.0
+    assert_through(obj, 1e-2, environment=environment)
