@@ -5,13 +5,14 @@ import types
 from pathlib import Path
 
 import bpy
+import numpy as np
 import skinglow_blender as sb
 from skinglow_blender.batch.files import input_files
-from skinglow_blender.farm import openjd
+from skinglow_blender.farm import frozen_frames, openjd
 from skinglow_blender.farm.openjd import _ranges
 from skinglow_blender.ui import farm_operators
 
-from inside.batch_studio import raises, studio
+from inside.batch_studio import RIGS, color_at, expected, raises, shown_in, studio
 
 write = sb.farm.write_openjd
 
@@ -82,6 +83,26 @@ def check_bundle_of_a_frozen_scene(work):
     light = work / "skinglow_frozen" / "Patch"
     assert set(attached) >= {str(light / f"light_000{n}.exr") for n in (1, 2, 3)}
     assert attached == [str(path) for path in input_files()]
+
+
+def check_frames_of_a_frozen_scene(work):
+    """What a task does, in this Blender: other than with the full program, the add-on is there."""
+    scene, _ = saved_studio(work)
+    sb.freeze(folder=work / "light")
+    folder = work / "frozen {pictures}"
+    (folder / ".0003.elsewhere-1.part.exr").parent.mkdir()
+    (folder / ".0003.elsewhere-1.part.exr").write_bytes(b"part")
+    assert frozen_frames.main("1-3:2", folder, scene.name, 600.0) == 0
+    assert sorted(path.name for path in folder.iterdir()) == ["0001.exr", "0003.exr"]
+    for frame in (1, 3):
+        lights = [(color_at(rig, frame), 1.0) for rig in RIGS]
+        np.testing.assert_allclose(shown_in(folder / f"000{frame}.exr"), expected(*lights), rtol=1e-5)
+    assert frozen_frames.frame_numbers("-3--1, 7,8") == [-3, -2, -1, 7, 8]
+    (folder / "0002.exr").mkdir()
+    assert frozen_frames.main("2", folder, scene.name, 0.0) == 1 and not list(folder.glob(".*"))
+    assert frozen_frames.main("2", folder, "no scene", 0.0) == 2
+    (work / "light").rename(work / "gone")
+    assert frozen_frames.main("2", folder, scene.name, 0.0) == 2
 
 
 def check_refused_before_anything_is_written(work):
