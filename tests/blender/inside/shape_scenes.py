@@ -99,7 +99,7 @@ def fresh(obj, graph, flesh=None, environment=None, occluders=None, cell_mm=1.0,
     flesh = {"tissue": sg.TISSUE_PRESETS["light"]} if flesh is None else flesh
     shape = sg.Shape(vertices, triangles, unit_mm=1.0, cell_mm=cell_mm, **where, **flesh)
     lit = shape.light(core_lights(graph, origin), environment, occluders, reentries)
-    dark = (lit.exitance - lit.transmitted).max(axis=1) < 1e-3 * lit.exitance.max()
+    dark = (lit.exitance - lit.transmitted).max(axis=1) <= 1e-3 * lit.exitance.max()
     return lit.transmitted / np.pi, targets, dark
 
 
@@ -114,6 +114,8 @@ def differences(obj, graph, in_the_dark=False, **expected):
     there = targets.of_texel >= 0
     if in_the_dark:
         there &= dark[targets.of_texel]
+    if not there.any():
+        return 0.0, 0.0
     found, want = pixels[there][:, :3], wanted[targets.of_texel[there]]
     return float(np.sqrt(((found - want) ** 2).mean())), float(want.mean())
 
