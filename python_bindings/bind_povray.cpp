@@ -2,7 +2,10 @@
 #include <pybind11/stl.h>
 #include <skinglow/povray.h>
 
+#include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "mesh_arrays.h"
@@ -61,7 +64,9 @@ std::vector<glm::dvec2> to_corner_uv(py::handle value, std::string_view name) {
     return {rows, rows + array.size() / 2};
 }
 
-PovrayGlow glow_of(const std::string& image, py::handle lut_u, py::handle glow_uv) {
+PovrayGlow glow_of(const std::string& image, py::handle lut_u, py::handle glow_uv, bool by_picture) {
+    if (by_picture && lut_u.is_none() && glow_uv.is_none())
+        return image.empty() ? PovrayGlow::macros : PovrayGlow::image;
     if (lut_u.is_none() == glow_uv.is_none()) {
         refuse_argument("lut_u and glow_uv", lut_u.is_none() ? "neither" : "both", "one of them");
     }
@@ -114,22 +119,33 @@ std::map<std::string, std::string> povray_files_of_arrays(
     std::string image, std::vector<Light> lights, py::handle point, py::handle coefficients,
     py::handle blood_weight, double strength, py::handle normals, py::handle surface_color,
     std::string surface_image, py::handle surface_uv, py::handle background, std::string name,
-    py::handle glow_uv) {
+    py::handle glow_uv, py::handle world_irradiance, std::string thickness_image, py::handle thickness_range,
+    std::optional<std::tuple<int, int, double>> frames, const std::vector<py::object>& instances) {
     PovrayScene scene;
     scene.mesh.name = std::move(name);
     scene.mesh.geometry = numpy::to_mesh(vertices, triangles);
     if (!lut_u.is_none()) scene.mesh.lut_u = to_doubles(lut_u, "lut_u");
     scene.mesh.glow_uv = to_corner_uv(glow_uv, "glow_uv");
+    for (const py::object& place : instances) scene.mesh.instances.push_back(to_mat4(place, "instances"));
     set_normals(scene.mesh, normals);
     scene.mesh.surface_uv = to_corner_uv(surface_uv, "surface_uv");
     scene.camera = to_camera(camera_matrix, resolution, projection, angle_x, ortho_width, shift);
     scene.lights = std::move(lights);
     scene.lut.mode = lut_mode(mode);
     scene.lut.axis = to_axis(base, size, max_thickness_mm);
-    scene.lut.glow = glow_of(image, lut_u, glow_uv);
+    scene.lut.glow = glow_of(image, lut_u, glow_uv, !thickness_image.empty());
     scene.lut.image = std::move(image);
     if (!base.is_none() && scene.lut.mode == LutMode::paper) {
         scene.lut.base = gray_entries(base.cast<const BaseLut&>());
+    }
+    if (!base.is_none() && scene.lut.mode == LutMode::physical) {
+        const auto& matrices = base.cast<const BaseLut&>().matrices();
+        scene.lut.matrices.assign(matrices.begin(), matrices.end());
+    }
+    scene.lut.world_irradiance = numpy::to_vec3(world_irradiance, "world_irradiance");
+    if (!thickness_image.empty()) {
+        const glm::dvec2 range = to_vec2(thickness_range, "thickness_range");
+        scene.lut.thickness = PovrayThicknessPicture{std::move(thickness_image), range.x, range.y};
     }
     const glm::dvec3 k = numpy::to_vec3(coefficients, "coefficients");
     scene.lut.coefficients = {k.x, k.y, k.z};
@@ -140,6 +156,7 @@ std::map<std::string, std::string> povray_files_of_arrays(
         scene.surface = PovraySurface{.color = glm::dvec3(1.0), .image = std::move(surface_image)};
         if (!surface_color.is_none()) scene.surface->color = numpy::to_vec3(surface_color, "surface_color");
     }
+    if (frames) scene.frames = PovrayFrames{std::get<0>(*frames), std::get<1>(*frames), std::get<2>(*frames)};
     scene.background = numpy::to_vec3(background, "background");
     const py::gil_scoped_release release;
     return povray_files(scene);
@@ -149,6 +166,17 @@ std::map<std::string, std::string> povray_files_of_arrays(
 
 void bind_povray(py::module_& m) {
     m.def(
+        "povray_frame_choice",
+        [](const std::vector<std::pair<int, std::string>>& files) {
+            std::vector<PovrayFrameFile> entries;
+            for (const auto& [first_frame, file] : files) entries.push_back({first_frame, file});
+            return povray_frame_choice(entries);
+        },
+        "files"_a,
+        R"(The text of a file of an animated scene that includes one of `files`, [(first frame, name)], by the frame.)");
+    m.def("povray_macros", &povray_macros,
+          "The text of skinglow.inc, POV-Ray's macros, as `povray_files` writes it.");
+    m.def(
         "povray_files", &povray_files_of_arrays, "vertices"_a, "triangles"_a, "lut_u"_a = py::none(),
         py::kw_only(), "camera_matrix"_a, "resolution"_a, "projection"_a = py::none(),
         "angle_x"_a = py::none(), "ortho_width"_a = py::none(), "shift"_a = py::make_tuple(0.0, 0.0),
@@ -157,7 +185,9 @@ void bind_povray(py::module_& m) {
         "coefficients"_a = py::make_tuple(1.0, 0.0, 1.0), "blood_weight"_a = py::make_tuple(1.8, 0.5, 0.4),
         "strength"_a = 1.0, "normals"_a = py::none(), "surface_color"_a = py::none(), "surface_image"_a = "",
         "surface_uv"_a = py::none(), "background"_a = py::make_tuple(0.0, 0.0, 0.0), "name"_a = "skin",
-        "glow_uv"_a = py::none(),
+        "glow_uv"_a = py::none(), "world_irradiance"_a = py::make_tuple(0.0, 0.0, 0.0),
+        "thickness_image"_a = "", "thickness_range"_a = py::make_tuple(0.0, 1.0), "frames"_a = py::none(),
+        "instances"_a = std::vector<py::object>(),
         R"(The files of a POV-Ray 3.7 scene, {name: text}; only those that it uses. Write them all into one folder.
 
 `povray scene.ini`, run in that folder, gives scene.exr (linear, half floats). World coordinates as Blender has them.
@@ -173,9 +203,10 @@ projection | angle_x | ortho_width   one of: (4, 4) as camera.calc_matrix_camera
                      it; full angle of the width, radians; width in scene units (the latter two: square pixels, and
                      shift as a fraction of the longer side)
 mode                 "existing", "paper" or "physical"
-base | size, max_thickness_mm   the table's axis; mode "paper" by macros needs base, a gray BaseLut
+base | size, max_thickness_mm   the table's axis; by macros, mode "paper" needs base, a gray BaseLut, and mode
+                     "physical" that of the skin
 image                name of the lookup's EXR in the folder (POV-Ray reads it as half floats); "": the macros compute
-                     the lookup from base and lights, in doubles (not in mode "physical")
+                     the lookup from base and lights, in doubles
 lights               [Light]; those that are off are left out
 point, coefficients, blood_weight   of Eq. 1-3
 strength             radiance shown = strength * lookup
@@ -185,5 +216,11 @@ surface_color | surface_image   matt surface under the glow, (3,) or a picture i
                      `povray scene.ini Declare=Skinglow_Part=1` (surface) and `=2` (glow)
 background           (3,) linear Rec.709
 name                 of the object, any text
+world_irradiance     (3,) mode "physical" by macros: added to that of the lights, W/m^2
+thickness_image, thickness_range   by macros: thickness from an EXR or a 16-bit PNG or TIFF in the folder, in surface_uv;
+                     mm where it is 0 and where it is 1. lut_u may be None then, and a surface_image takes one render
+frames               None: a still; (first, last, frames per second): scene.ini renders these frames. The files are those of
+                     one frame, see povray_frame_choice
+instances            [(4, 4)] further places of the mesh: each moves the vertices to where they are once more
 Raises ValueError naming what is wrong.)");
 }

@@ -45,8 +45,9 @@ function compileJob(job) {
 function liveArguments(settings, rigs, chunk) {
     const start = "import skinglow_blender as sb; sb.batch_main()";
     let args = ["--python-exit-code", "2", "--python-expr", start, "--", "--progress", "flamenco"];
-    args = args.concat([`--frames=${chunk}`, "--out", settings.folder]);
-    if (settings.scene) args = args.concat(["--scene", settings.scene]);
+    // With =, as names may begin with a dash.
+    args = args.concat([`--frames=${chunk}`, `--out=${settings.folder}`]);
+    if (settings.scene) args.push(`--scene=${settings.scene}`);
     return rigs.length ? args.concat(["--rigs"], rigs) : args;
 }
 

@@ -11,11 +11,13 @@ from functools import wraps
 from typing import Any
 
 from . import batch, bundled_core, farm, preferences, scene_settings, skin_settings
-from .batch import BatchResult, BatchStep, Rig
+from .batch import BatchResult, BatchStep, Rig, povray_command, povray_comparison
+from .batch.povray_comparison import PovrayComparison
 from .commands import freezing, light_listing, povray_export, skin, thickness_map
 from .commands import health as skin_health
 from .commands.freezing import Frozen
 from .commands.health import Fault
+from .commands.povray_export import PovrayExport
 from .commands.skin import SkinState
 from .commands.thickness_map import BakedThickness
 from .errors import SkinError
@@ -33,6 +35,7 @@ from .ui import (
     measuring_operators,
     menus,
     operators,
+    povray_operators,
     presets,
     slot_choice,
     thickness_operators,
@@ -55,12 +58,16 @@ __all__ = [
     "BatchStep",
     "Fault",
     "Frozen",
+    "PovrayComparison",
+    "PovrayExport",
     "Rebuilt",
     "Rig",
     "SkinError",
     "SkinState",
     "bake_thickness",
     "batch_main",
+    "compare_with_povray",
+    "compare_with_povray_main",
     "export_povray",
     "farm",
     "freeze",
@@ -89,6 +96,7 @@ _PARTS = (
     thumbnails,
     light_list,
     operators,
+    povray_operators,
     material_operators,
     slot_choice,
     measuring_operators,
@@ -102,6 +110,7 @@ _PARTS = (
     menus,
     handlers,
     batch,
+    povray_command,
 )
 _registered = False
 
@@ -152,3 +161,5 @@ show_light_by = _registering(subsurface.show_light_by)
 render_batch = _registering(batch.render_batch)
 batch_main = _registering(batch.main)
 farm.write_openjd = _registering(farm.write_openjd)
+compare_with_povray = _registering(povray_comparison.compare_with_povray)
+compare_with_povray_main = _registering(povray_command.main)

@@ -47,6 +47,8 @@ from skinglow._core import (
     object_irradiance_by_light,
     object_irradiance_error,
     povray_files,
+    povray_frame_choice,
+    povray_macros,
     read_light_rig,
     recolor,
     reference_lut,
@@ -164,6 +166,8 @@ __all__ = [
     "visible_entries",
     # POV-Ray
     "povray_files",
+    "povray_frame_choice",
+    "povray_macros",
     # Meshes
     "Occluders",
     "VisibleFraction",

@@ -425,6 +425,8 @@ def read_light_rig(path: str | PathLike[str], camera_rotation: ArrayLike | None 
 
 # POV-Ray (bind_povray.cpp)
 
+def povray_macros() -> str: ...
+def povray_frame_choice(files: Sequence[tuple[int, str]]) -> str: ...
 def povray_files(
     vertices: ArrayLike,
     triangles: ArrayLike,
@@ -453,6 +455,11 @@ def povray_files(
     background: ArrayLike = (0.0, 0.0, 0.0),
     name: str = "skin",
     glow_uv: ArrayLike | None = None,
+    world_irradiance: ArrayLike = (0.0, 0.0, 0.0),
+    thickness_image: str = "",
+    thickness_range: ArrayLike = (0.0, 1.0),
+    frames: tuple[int, int, float] | None = None,
+    instances: Sequence[ArrayLike] = [],
 ) -> dict[str, str]: ...
 
 # Values on a surface as texels of an image (bind_face_tiles.cpp)

@@ -3,13 +3,15 @@
 Run by scripts/test --farms, not by the ordinary tests.
 """
 
+import json
 import os
 import random
 import signal
 import subprocess
+import tempfile
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -37,6 +39,9 @@ bpy.ops.wm.save_mainfile()
 onto = bpy.data.objects["head"]
 sb.farm.write_openjd("//job", rigs={list(RIGS)!r}, out="//openjd", chunk={CHUNK}, onto=onto)
 assert len(sb.render_batch("//alone", rigs={list(RIGS)!r}, onto=onto).rendered) == {len(NAMES)}
+sb.render_batch("//scene_alone", "1-4")
+sb.freeze(None, 1, 4)
+bpy.ops.wm.save_as_mainfile(filepath=bpy.path.abspath("//frozen.blend"))
 """
 
 
@@ -108,6 +113,9 @@ def render(folder: Path, run: Callable[[Killer], None]) -> None:
     assert sorted(entry["file"] for entry in manifest(folder)) == NAMES
     assert_same_pixels(folder, folder.parent / "alone", NAMES)
     assert not leftovers(folder) and not workers(folder)
+    # Each input was read once, by whichever worker came first.
+    read = [json.loads(line)[0] for line in (folder / ".skinglow_digests").read_text().splitlines()]
+    assert sorted(read) == sorted([str(folder.parent / "scene.blend"), RIGS[1]])
 
 
 def test_openjd(farm: FarmProgram) -> None:
@@ -120,44 +128,55 @@ def test_openjd(farm: FarmProgram) -> None:
     render(farm.folder / "openjd", run)
 
 
-def test_slurm(farm: FarmProgram) -> None:
-    """The script of the documentation; its log tells how each task ended."""
-    out, logs = farm.folder / "slurm", farm.folder / "logs"
-    logs.mkdir()
+class Queue:
+    """A cluster, and the script of the documentation."""
+
+    script = str(PROJECT / "blender_addon" / "farm" / "skinglow_slurm.sh")
+
+    def __init__(self, cluster: Cluster, farm: FarmProgram) -> None:
+        self.cluster, self.farm = cluster, farm
+
+    def run(self, environment: dict[str, str], array: str, blend: str, out: Path, *arguments: object) -> str:
+        """Runs an array of tasks to its end; returns what the tasks told."""
+        logs = Path(tempfile.mkdtemp(dir=self.farm.folder))
+        own = {"SLURM_CONF": self.cluster.environment["SLURM_CONF"], "PATH": self.cluster.path}
+        environment = {**environment, **own, "BLENDER": self.farm.blender}
+        task = [self.script, str(self.farm.folder / blend), str(out), *map(str, arguments)]
+        self.cluster.run("sbatch", f"--array={array}", *task, env=environment, cwd=logs)
+        until = time.monotonic() + SECONDS
+        while queue := self.cluster.run("squeue", "-h", "-o", "%i %T"):
+            assert time.monotonic() < until, queue
+            time.sleep(0.5)
+        return "".join(path.read_text() for path in sorted(logs.glob("*.txt")))
+
+
+@pytest.fixture(scope="module")
+def queue(farm: FarmProgram) -> Iterator[Queue]:
     with Cluster() as cluster:
-
-        def run(_killer: Killer) -> None:
-            environment = {**cluster.environment, **farm.environment, "SLURM_CONF": cluster.environment["SLURM_CONF"]}
-            environment |= {"PATH": cluster.path, "BLENDER": farm.blender}
-            array = f"--array=0-{FRAMES // CHUNK - 1}"
-            script = str(PROJECT / "blender_addon" / "farm" / "skinglow_slurm.sh")
-            task = [str(farm.folder / "scene.blend"), str(out), "1", str(FRAMES), str(CHUNK), *RIGS, "--onto", "head"]
-            cluster.run("sbatch", array, script, *task, env=environment, cwd=logs)
-            until = time.monotonic() + SECONDS
-            while queue := cluster.run("squeue", "-h", "-o", "%i %T"):
-                assert time.monotonic() < until, queue
-                time.sleep(0.5)
-
-        render(out, run)
-        told = "".join(path.read_text() for path in logs.glob("*.txt"))
-        assert told.count("Killed") == KILLS, told
-        # Workers are named by their manager.
-        assert [path.name for path in out.glob("*.jsonl")] == ["manifest-localhost.jsonl"]
+        yield Queue(cluster, farm)
 
 
-def test_slurm_does_not_try_again_what_is_useless(farm: FarmProgram) -> None:
-    with Cluster() as cluster:
-        environment = {**farm.environment, **cluster.environment, "BLENDER": farm.blender}
-        script = str(PROJECT / "blender_addon" / "farm" / "skinglow_slurm.sh")
-        task = [str(farm.folder / "scene.blend"), str(farm.folder / "none"), "1", "1", "1", "nobody"]
-        done = subprocess.run(
-            ["sbatch", "--wait", "--array=0", script, *task],
-            env=environment,
-            cwd=farm.folder,
-            capture_output=True,
-            text=True,
-            timeout=SECONDS,
-        )
-        assert done.returncode == 2, done.stdout + done.stderr
-        (log,) = farm.folder.glob("skinglow_*_0.txt")
-        assert log.read_text().count("'nobody' is neither a light") == 1
+def test_slurm(farm: FarmProgram, queue: Queue) -> None:
+    out, told = farm.folder / "slurm", []
+
+    def run(_killer: Killer) -> None:
+        chunks = f"0-{FRAMES // CHUNK - 1}"
+        told.append(queue.run(farm.environment, chunks, "scene.blend", out, 1, FRAMES, CHUNK, *RIGS, "--onto", "head"))
+
+    render(out, run)
+    assert told[0].count("Killed") == KILLS, told
+    # Workers are named by their manager.
+    assert [path.name for path in out.glob("*.jsonl")] == ["manifest-localhost.jsonl"]
+
+
+def test_slurm_does_not_try_again_what_is_useless(farm: FarmProgram, queue: Queue) -> None:
+    told = queue.run(farm.environment, "0", "scene.blend", farm.folder / "none", 1, 1, 1, "nobody")
+    assert told.count("'nobody' is neither a light") == 1, told
+
+
+def test_slurm_renders_frozen_scenes_without_the_add_on(farm: FarmProgram, queue: Queue) -> None:
+    out = farm.folder / "frozen"
+    told = queue.run({**farm.without_addon, "LIGHT": "frozen"}, "0-1", "frozen.blend", out, 1, 4, 2)
+    names = [f"scene/{frame:04d}.exr" for frame in range(1, 5)]
+    assert pictures(out) == names, told
+    assert_same_pixels(out, farm.folder / "scene_alone", names)

@@ -44,6 +44,36 @@ TEST(ImageCompare, AnImageIsItself) {
     EXPECT_TRUE(std::isfinite(far.total.rms) && std::isfinite(far.total.max) && std::isfinite(far.error[0]));
 }
 
+TEST(ImageCompare, PercentilesAreOfTheComparedPixels) {
+    const ScratchFolder folder;
+    std::vector<float> first(3000, 0.0F);
+    std::vector<float> second(3000);
+    for (std::size_t i = 0; i < 1000; ++i) second[3 * i + i % 3] = static_cast<float>(i + 1) / 1024.0F;
+    write_test_image(folder / "a.exr", {1000, 1, {"R", "G", "B"}, first});
+    write_test_image(folder / "b.exr", {1000, 1, {"R", "G", "B"}, second});
+    const ImageComparison result = compare_images(folder / "a.exr", folder / "b.exr");
+    const std::vector<std::pair<double, double>> expected = {
+        {50, 500.0 / 1024}, {90, 900.0 / 1024}, {95, 950.0 / 1024}, {99, 990.0 / 1024}, {99.9, 999.0 / 1024}};
+    EXPECT_EQ(result.percentiles, expected);
+}
+
+TEST(ImageCompare, SideBySideShowsBothAndTheHeatMap) {
+    const ScratchFolder folder;
+    write_test_image(folder / "a.exr", {2, 1, {"R", "G", "B"}, {0.0F, 0.0F, 0.0F, 1.0F, 1.0F, 1.0F}});
+    write_test_image(folder / "b.exr", {2, 1, {"R", "G", "B"}, {0.0F, 0.0F, 0.0F, 0.0F, 9.0F, 0.0F}});
+    const ImageComparison result = compare_images(folder / "a.exr", folder / "b.exr");
+    EXPECT_EQ(heat_map_white(result), 8.0);
+    write_side_by_side(folder / "s.png", folder / "a.exr", folder / "b.exr", result, 8.0);
+    const LinearImage shown = read_image(folder / "s.png");
+    EXPECT_EQ(shown.width, 6);
+    EXPECT_EQ(shown.height, 1);
+    const std::vector<float> expected = {0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 1};
+    EXPECT_EQ(shown.rgb, expected);
+    expect_refused<FileError>(
+        [&] { write_side_by_side(folder / "s.jpg", folder / "a.exr", folder / "b.exr", result, 8.0); },
+        {".png"});
+}
+
 TEST(ImageCompare, MaskLeavesOut) {
     const ScratchFolder folder;
     write_test_image(folder / "a.exr", {2, 1, {"R", "G", "B"}, std::vector<float>(6, 0.0F)});

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 import re
-import shutil
 import subprocess
 from pathlib import Path
 
 import numpy as np
+import skinglow as sg
 
 MACROS = Path(__file__).resolve().parents[2] / "povray_macros"
 HEADER = '#version 3.7;\n#include "skinglow.inc"\nglobal_settings { assumed_gamma 1.0 }\n'
@@ -28,7 +28,7 @@ def run(folder: Path, *arguments: str) -> None:
 
 def numbers(folder: Path, expressions: list[str], declarations: str = "") -> list[float]:
     """Values of SDL expressions, every digit, computed by POV-Ray with the macros included."""
-    shutil.copy(MACROS / "skinglow.inc", folder)
+    write(folder, {"skinglow.inc": sg.povray_macros()})
     writes = "".join(f'#write (Out, Skinglow_Exact_Text({e}), "\\n")\n' for e in expressions)
     text = f'{HEADER}{declarations}\n#fopen Out "out.txt" write\n{writes}#fclose Out\n'
     (folder / "numbers.pov").write_text(text + "camera { location -z }\n")

@@ -106,6 +106,7 @@ def test_cones_of_no_angle_give_nothing(tmp_path):
     shut = [
         sg.Light("SPOT", position=above(), power=9, spot_angle=0),
         sg.Light("AREA", position=above(), power=9, spread=0),
+        sg.Light("AREA", position=above(), power=9, size_y=0),
     ]
     np.testing.assert_array_equal(radiance(tmp_path, *shut), 0)
 

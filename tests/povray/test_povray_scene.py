@@ -52,7 +52,7 @@ STEP_16_BIT = 2e-5  # of the picture's file, half a step and rounding
 
 
 def test_macros_compute_the_table_of_the_core(tmp_path):
-    write(tmp_path, square() | {"verify_lut.pov": (MACROS / "verify_lut.pov").read_text()})
+    write(tmp_path, square() | {"verify_lut.pov": (MACROS / "verify" / "lut.pov").read_text()})
     run(tmp_path, "verify_lut.pov", "-F")
     words = (tmp_path / "lut.txt").read_text().split()
     found = np.array([exact(w) for w in words]).reshape(-1, 3)
@@ -73,7 +73,8 @@ def test_glow_by_image_is_the_same_to_half_floats(tmp_path):
     write_exr(tmp_path / "lut of head.exr", write_exr_of)
     row = picture(tmp_path, files)
     np.testing.assert_allclose(row, along(paper_table(), U), atol=1e-5, rtol=2.0**-11)
-    assert "Skinglow_Base" not in files["lut.inc"]  # neither base nor lights: the picture is all it takes
+    # Neither base nor lights: the picture is all it takes.
+    assert "Skinglow_Base" not in files["lut.inc"] and "lights.inc" not in files
 
 
 def test_existing_mode_knows_no_lamp(tmp_path):
@@ -105,10 +106,13 @@ def test_lookup_coordinates_beyond_the_table_are_clamped(tmp_path):
 
 def test_only_what_the_scene_uses_is_emitted():
     bare = square()
-    assert set(bare) == {"scene.ini", "scene.pov", "camera.inc", "mesh.inc", "lut.inc", "skinglow.inc"}
-    assert "Skinglow_Light_Count = 2" in bare["lut.inc"]
+    names = {"scene.ini", "scene.pov", "camera.inc", "mesh.inc", "lut.inc", "skinglow.inc"}
+    assert set(bare) == names | {"lights.inc"}
+    assert "Skinglow_Light_Sources = 0;" in bare["scene.pov"]
+    assert set(square(mode="existing", size=4, max_thickness_mm=3)) == names
     lit = square(surface_color=(0.5, 0.3, 0.2))
-    assert lit["lights.inc"].count("light_source {") == 2
+    assert "Skinglow_Light_Sources = 1;" in lit["scene.pov"]
+    assert lit["lights.inc"].count("\nSkinglow_Light(") == 2
     assert "light without power" not in lit["lights.inc"] and "light unseen" not in lit["lights.inc"]
     assert "lights.inc" not in square(surface_color=(0.5, 0.3, 0.2), lights=LIGHTS[2:])
     normals = np.array([(0, 0, 1.0)] * 4)
@@ -181,6 +185,29 @@ def test_surface_picture_is_a_second_render(tmp_path):
         run(tmp_path, "scene.ini")
 
 
+def test_preview_and_final_settings(tmp_path):
+    write(tmp_path, square(lights=[], resolution=(64, 8)))
+    for section, size in (("", (64, 8)), ("[Preview]", (16, 2)), ("[Final]", (64, 8))):
+        run(tmp_path, f"scene.ini{section}", "+Oshown.ppm", "+FP16")
+        assert f"{size[0]} {size[1]}" in (tmp_path / "shown.ppm").read_bytes()[:60].decode(errors="replace")
+
+
+def test_instances_are_the_same_mesh_elsewhere(tmp_path):
+    """The square shrunk to a half on the left, and once more, mirrored, on the right."""
+    half = np.diag([0.5, 0.5, 1.0, 1.0])
+    left, right = half.copy(), np.diag([-0.5, 0.5, 1.0, 1.0])
+    left[0, 3], right[0, 3] = -0.5, 0.5
+    vertices = SQUARE @ half[:3, :3] + left[:3, 3]
+    files = sg.povray_files(
+        vertices, TRIANGLES, np.array((0, 1, 1, 0.0)), camera_matrix=FROM_ABOVE, resolution=(64, 4), ortho_width=2,
+        base=BASE, lights=[], instances=[right @ np.linalg.inv(left)],
+    )  # fmt: skip
+    row = picture(tmp_path, files)
+    u = (15 * (np.arange(32) + 0.5) / 32 + 0.5) / 16
+    np.testing.assert_allclose(row[:32], along(paper_table([]), u), atol=STEP_16_BIT)
+    np.testing.assert_allclose(row[32:], row[:32][::-1], atol=STEP_16_BIT)
+
+
 def test_the_same_scene_gives_the_same_text():
     assert square(surface_color=(1, 1, 1)) == square(surface_color=(1, 1, 1))
 
@@ -191,7 +218,8 @@ def test_povrays_own_message_reaches_the_user_when_the_lookup_is_missing(tmp_pat
 
 
 def test_example_the_right_ear_follows_the_lamp_and_the_left_does_not(tmp_path):
-    files = {name: (MACROS / name).read_text() for name in ("example.pov", "skinglow.inc")}
+    files = {name: (MACROS / name).read_text() for name in ("example.pov",)}
+    files["skinglow.inc"] = sg.povray_macros()
     ini = "Input_File_Name=example.pov\nWidth=80\nHeight=60\n"
     write(tmp_path, files | {"scene.ini": ini})
     share_of_blue = []
@@ -212,7 +240,13 @@ REFUSED = [
     (dict(image="lut\n.exr"), "without control characters"),
     (dict(surface_image="skin.bmp"), "ends in .exr, .hdr, .png"),
     (dict(surface_image="skin.png"), "surface_uv is 0 entries; allowed: 6"),
-    (dict(mode="physical"), "image: skinglow.inc computes modes existing and paper"),
+    (dict(mode="physical", size=4, max_thickness_mm=1), "matrices is 0 entries; allowed: 4"),
+    (dict(thickness_image="t.jpg", surface_uv=np.zeros((2, 3, 2))), "thickness image is .*; allowed: .*.tiff"),
+    (dict(thickness_image="t.png"), "surface_uv is 0 entries; allowed: 6"),
+    (
+        dict(thickness_image="t.png", surface_uv=np.zeros((2, 3, 2)), image="lut.exr"),
+        "glow is an image, with a thickness image; allowed: macros",
+    ),
     (dict(mode="new"), 'mode is "new"; allowed: existing, paper or physical'),
     (dict(strength=-1), "strength is -1"),
     (dict(strength=np.inf), "strength is inf"),

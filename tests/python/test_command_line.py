@@ -173,6 +173,11 @@ def test_compare_limits_and_heat_map(tmp_path):
     assert same["rms"] == 0 and same["psnr_db"] is None
     assert "same" in skinglow("compare", pair[0], pair[0]).stdout
     report = json.loads(skinglow("compare", *pair, "--json").stdout)
+    assert list(report["percentiles"]) == ["50", "90", "95", "99", "99.9"]
+    assert report["percentiles"]["99.9"] <= report["max"]
+    seen = json.loads(skinglow("compare", *pair, "--json", "--side-by-side", tmp_path / "s.png").stdout)
+    assert seen["heat_map_white"] == report["max"]
+    assert (tmp_path / "s.png").read_bytes().startswith(b"\x89PNG")
     a, b = (read_csv_of(path, tmp_path) for path in ("paper", "existing"))
     pairs = [pair for rows in zip(a, b, strict=True) for pair in zip(*(row[1:] for row in rows), strict=True)]
     squares = [(x - y) ** 2 for x, y in pairs]
@@ -215,6 +220,10 @@ def test_povray_writes_a_scene(tmp_path):
     assert (tmp_path / "table" / "lut.exr").exists()
     message = refused(*scene, *table, "--size", 4, "-o", tmp_path)
     assert "--lut brings its own table" in message
+    skinglow(*scene, "--skin", "ear", "--size", 2, "--tolerance", 0.1, "-o", tmp_path / "scene")
+    assert "Skinglow_Red_Column = array[2]" in (tmp_path / "scene" / "columns.inc").read_text()
+    skinglow(*scene, "-o", tmp_path / "scene")
+    assert not (tmp_path / "scene" / "columns.inc").exists()
 
 
 @pytest.mark.parametrize(

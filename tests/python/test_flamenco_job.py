@@ -37,7 +37,7 @@ def test_commands_of_a_live_job() -> None:
         "argsBefore": [],
         "blendfile": "/share/head scene.blend",
         "args": ["--python-exit-code", "2", "--python-expr", START, "--", "--progress", "flamenco"]
-        + ["--frames=1-3", "--out", "/share/out", "--scene", "Scene"]
+        + ["--frames=1-3", "--out=/share/out", "--scene=Scene"]
         + ["--rigs", "Sunset", "day=Key, Fill", "/share/noon.json"],
     }
 
@@ -45,7 +45,7 @@ def test_commands_of_a_live_job() -> None:
 def test_without_rigs_and_scene_the_file_decides() -> None:
     (command,) = tasks(frames="7", scene="")[0]["commands"]
     assert command["steps"] == 1
-    assert command["parameters"]["args"][5:] == ["--progress", "flamenco", "--frames=7", "--out", "/share/out"]
+    assert command["parameters"]["args"][5:] == ["--progress", "flamenco", "--frames=7", "--out=/share/out"]
 
 
 def test_commands_of_a_frozen_job_are_blenders_own() -> None:

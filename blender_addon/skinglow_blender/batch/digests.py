@@ -9,6 +9,7 @@ import json
 import os
 import time
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -23,12 +24,13 @@ COARSEST_TIME = 2.0
 def file_digests(paths: Iterable[Path], folder: Path | None = None) -> dict[Path, str]:
     """SHA-256 of files in hexadecimal, "" for those that cannot be read; folder: where they are kept, None: nowhere.
 
-    Other workers wait for the one that reads the files, and take what it found.
+    Other workers wait for the one that reads the files, and take what it found. Where nothing can be kept, each reads.
     """
-    if folder is None:
-        return {path: _digest(path) for path in paths}
-    with locked(folder / NAME):
-        return _kept_digests(paths, folder / NAME)
+    paths = list(paths)
+    if folder is not None:
+        with suppress(OSError), locked(folder / NAME):
+            return _kept_digests(paths, folder / NAME)
+    return {path: _digest(path) for path in paths}
 
 
 def _kept_digests(paths: Iterable[Path], file: Path) -> dict[Path, str]:

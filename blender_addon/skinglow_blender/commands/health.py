@@ -13,8 +13,10 @@ from ..read.measured_size import is_reshaped
 from ..read.mesh_reading import evaluated_mesh, vertices_of_slots
 from ..session import SESSION
 from ..show.frozen import frozen_frames, frozen_mark, is_frozen, missing_file
+from ..show.group_nodes import nodes_of
 from ..show.image_pairs import SLOTS
 from ..show.lut_image import images_of, shown_image
+from ..show.tile_image import TILES
 from ..thickness import thickness_attribute
 from ..thickness.thickness_attribute import KNOWN_ATTRIBUTE, THICKNESS_ATTRIBUTE
 from .freezing import unfreeze
@@ -54,6 +56,8 @@ def quick_faults(obj: bpy.types.Object) -> list[Fault]:
     else:
         if len(images_of(group)) != len(SLOTS):
             faults.append(Fault("An image of its lookup was deleted", REPAIR))
+        if nodes_of(group).tiles and len(TILES.all_of(group)) != len(SLOTS):
+            faults.append(Fault("An image of its tiles was deleted", REPAIR))
         faults += material_faults(obj)
         if is_frozen(group):
             faults += _frozen_faults(obj, group)

@@ -36,6 +36,7 @@ def main(frames: str, folder: Path, scene_name: str, seconds: float) -> int:
             return 1
         print(f"openjd_progress: {100.0 * done / len(numbers):.1f}", flush=True)
         print(f"openjd_status: [{done}/{len(numbers)}] frame {frame}", flush=True)
+    faulthandler.cancel_dump_traceback_later()
     return 0
 
 
@@ -66,8 +67,11 @@ def render(scene: bpy.types.Scene, frame: int, path: Path) -> None:
     brace, end = "{", "}"
     double = 1 if bpy.app.version < (4, 5, 0) else 2
     scene.render.filepath = str(partial).replace(brace, brace * double).replace(end, end * double)
-    bpy.ops.render.render(write_still=True, scene=scene.name)
-    os.replace(partial, path)
+    try:
+        bpy.ops.render.render(write_still=True, scene=scene.name)
+        os.replace(partial, path)
+    finally:
+        partial.unlink(missing_ok=True)
 
 
 if __name__ == "__main__":

@@ -70,7 +70,9 @@ def write_openjd(
     if frozen:
         script = _frozen_script(scene, timeout)
     else:
-        options = ["--scene", scene.name, "--pattern", pattern, *(("--onto", onto.name) if onto is not None else ())]
+        # With =, as names may begin with a dash.
+        options = [f"--scene={scene.name}", f"--pattern={pattern}"]
+        options += [f"--onto={onto.name}"] if onto is not None else []
         script = _live_script(options, timeout, has_rigs=rigs is not None)
     rig_names = [] if rigs is None else [_as_option(rig) for rig in ready]
     _require_no_braces(scene.name, pattern, onto.name if onto is not None else "", *rig_names)
@@ -142,7 +144,7 @@ def _template(name: str, script: dict[str, Any], rigs: list[str]) -> dict[str, A
 def _live_script(options: list[str], timeout: float, *, has_rigs: bool) -> dict[str, Any]:
     frames = ["--frames={{Task.Param.Frames}}", "--out", "{{Param.OutDir}}"]
     mapping = ["--path-mapping", "{{Session.PathMappingRulesFile}}"]
-    rig = ["--rigs", "{{Task.Param.Rig}}"] if has_rigs else []
+    rig = ["--rigs={{Task.Param.Rig}}"] if has_rigs else []
     limit = ["--timeout", f"{timeout:g}"] if timeout else []
     return _script([*BATCH, "--progress", "openjd", *frames, *rig, *options, *limit, *mapping])
 

@@ -33,6 +33,7 @@ class Rebuilt(NamedTuple):
     mode: str  #: 'VIEWPORT' or 'RENDER': the depsgraph mode it was computed for
     before: Signature | None  #: signature of the previous table; None: there was none
     after: Signature  #: signature of the new table
+    key: str = ""  #: identity.key_of the object
 
     @property
     def why(self) -> str:
@@ -131,7 +132,7 @@ def _update_group(
             atlas.put(skin.key, row, table, _texels(table, skin, atlas))
             changed_from = before.get(skin.key, (None, None))
             if changed_from != (signature, row):
-                rebuilt.append(Rebuilt(skin.name, mode, changed_from[0], signature))
+                rebuilt.append(Rebuilt(skin.name, mode, changed_from[0], signature, skin.key))
         _set_row_property(obj, skin, atlas, row)
     _follow_shapes(group, members, atlas, kept, reading, faults)
     if atlas.is_dirty:
@@ -344,6 +345,14 @@ REASONS = {
 }
 
 
+def _by_name(signature: Signature) -> dict[str, list[tuple]]:
+    """The lights of a signature; instances, and lights of libraries, may have one name."""
+    found: dict[str, list[tuple]] = {}
+    for light in signature.lights:
+        found.setdefault(light[0], []).append(light)
+    return found
+
+
 def why_changed(before: Signature | None, after: Signature) -> str:
     """The difference between two signatures, as text."""
     if before is None:
@@ -351,11 +360,12 @@ def why_changed(before: Signature | None, after: Signature) -> str:
     if before.mode != after.mode:
         return f"mode {before.mode.lower()} to {after.mode.lower()}"
     reasons = [words for name, words in REASONS.items() if getattr(before, name) != getattr(after, name)]
-    old, new = ({light[0]: light for light in signature.lights} for signature in (before, after))
-    reasons += [f"light '{name}' added" for name in new if name not in old]
-    reasons += [f"light '{name}' removed" for name in old if name not in new]
+    old, new = _by_name(before), _by_name(after)
+    reasons += [f"light '{name}' added" for name in new if len(new[name]) > len(old.get(name, ()))]
+    reasons += [f"light '{name}' removed" for name in old if len(old[name]) > len(new.get(name, ()))]
     for name in new:
-        if name in old and old[name] != new[name]:
-            changed = [f for f, a, b in zip(FIELDS, old[name], new[name], strict=True) if a != b]
+        if len(old.get(name, ())) == len(new[name]) and old[name] != new[name]:
+            pairs = zip(zip(*old[name], strict=True), zip(*new[name], strict=True), strict=True)
+            changed = [field for field, (a, b) in zip(FIELDS, pairs, strict=True) if a != b]
             reasons.append(f"light '{name}': {', '.join(changed)}")
     return "; ".join(reasons) or "its row in the image"

@@ -4,9 +4,9 @@
 from collections.abc import Callable
 
 import bpy
-from bpy.props import BoolProperty, StringProperty
+from bpy.props import StringProperty
 
-from ..commands import povray_export, skin
+from ..commands import skin
 from ..commands.health import health, repair
 from ..errors import SkinError
 from ..identity import key_of
@@ -163,35 +163,6 @@ class SKINGLOW_OT_update(AnySkinOperator, bpy.types.Operator):  # noqa: N801
         return self.attempt(update)
 
 
-class SKINGLOW_OT_export_povray(AnySkinOperator, bpy.types.Operator):  # noqa: N801
-    """Writes POV-Ray scenes. No undo: it changes no Blender data."""
-
-    bl_idname = "skinglow.export_povray"
-    bl_label = "Export Skin Glow to POV-Ray"
-    bl_description = "Write the skins of the scene with camera, lights and lookup as POV-Ray 3.7 files to a folder"
-    bl_options = {"REGISTER"}
-
-    directory: StringProperty(subtype="DIR_PATH", description="Folder to write to")
-    filter_folder: BoolProperty(default=True, options={"HIDDEN"})
-    surface: BoolProperty(
-        name="Surface", default=True, description="Export the surface too; if disabled, only the transmitted light"
-    )
-
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        def export() -> str:
-            if not self.directory:
-                raise SkinError("No folder selected for the POV-Ray files")
-            graph = context.evaluated_depsgraph_get()
-            files = povray_export.export_povray(graph, bpy.path.abspath(self.directory), surface=self.surface)
-            return f"{len(files)} files written to {self.directory}"
-
-        return self.attempt(export)
-
-
 class SKINGLOW_OT_select_light(_SkinOperator, bpy.types.Operator):  # noqa: N801
     """Selects the light of a row in the list; the skin stays active, so that the list stays visible."""
 
@@ -233,7 +204,6 @@ CLASSES = (
     SKINGLOW_OT_repair,
     SKINGLOW_OT_reset,
     SKINGLOW_OT_update,
-    SKINGLOW_OT_export_povray,
     SKINGLOW_OT_select_light,
 )
 

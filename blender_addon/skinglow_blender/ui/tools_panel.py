@@ -12,6 +12,7 @@ class _Export(SkinPanel):
 
     def draw(self, _context: bpy.types.Context) -> None:
         self.layout.operator("skinglow.export_povray", text="POV-Ray Scene", icon="EXPORT")
+        self.layout.operator("skinglow.compare_povray", text="Compare with POV-Ray", icon="IMAGE_ALPHA")
 
 
 class SKINGLOW_PT_sidebar_export(_Export, InSidebar, bpy.types.Panel):  # noqa: N801  Blender's naming

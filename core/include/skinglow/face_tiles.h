@@ -21,8 +21,9 @@ namespace skinglow {
 constexpr std::size_t tile_image_width = 1024;
 
 struct FaceTilesOptions {
-    double unit_mm = 1.0;     ///< length of one unit of the vertices, mm; finite, above 0
-    double spacing_mm = 0.8;  ///< of texels along the edges of a face, to the nearest whole number; finite, above 0
+    double unit_mm = 1.0;  ///< length of one unit of the vertices, mm; finite, above 0
+    double spacing_mm =
+        0.8;  ///< of texels along the edges of a face, to the nearest whole number; finite, above 0
     /// Most texels of the image, at least one row of it; where it binds, the spacing grows.
     std::size_t max_texels = std::size_t{1} << 20U;
 };

@@ -15,6 +15,7 @@ struct Options {
     std::string second;
     std::string heat_map;
     std::string mask;
+    std::string side_by_side;
     bool ignore_edges = false;
     double peak = 1.0;
     std::optional<double> scale;
@@ -38,6 +39,8 @@ void print_as_json(const ImageComparison& comparison, std::optional<double> heat
     object["compared_pixels"] = comparison.compared_pixels;
     object["left_out_pixels"] = comparison.left_out_pixels;
     object["worst_pixel"] = {comparison.worst_x, comparison.worst_y};
+    for (const auto& [percent, value] : comparison.percentiles)
+        object["percentiles"][short_number(percent)] = value;
     if (heat_map_white) object["heat_map_white"] = *heat_map_white;
     print_json(object);
 }
@@ -53,6 +56,12 @@ void print_text(const ImageComparison& comparison, std::optional<double> heat_ma
     print_table(std::cout, rows);
     std::cout << comparison.compared_pixels << " pixels compared, " << comparison.left_out_pixels
               << " left out; the worst at (" << comparison.worst_x << ", " << comparison.worst_y << ")\n";
+    std::cout << "largest difference of a channel in";
+    for (const auto& [percent, value] : comparison.percentiles) {
+        std::cout << (percent > comparison.percentiles.front().first ? ", " : " ") << short_number(percent)
+                  << " % of them: " << short_number(value);
+    }
+    std::cout << '\n';
     if (heat_map_white)
         std::cout << "heat map: white is a difference of " << short_number(*heat_map_white) << " or more\n";
 }
@@ -60,7 +69,8 @@ void print_text(const ImageComparison& comparison, std::optional<double> heat_ma
 /// @return the exit code
 int run(const Options& options) {
     if (options.max_rms) require_not_negative("--max-rms", *options.max_rms);
-    refuse_overwriting({options.heat_map}, {options.first, options.second, options.mask});
+    refuse_overwriting({options.heat_map, options.side_by_side},
+                       {options.first, options.second, options.mask});
     CompareOptions how;
     how.peak = options.peak;
     how.ignore_edges = options.ignore_edges;
@@ -69,6 +79,11 @@ int run(const Options& options) {
     for (const std::string& note : comparison.notes) std::cerr << "skinglow: file " << note << '\n';
     std::optional<double> white;
     if (!options.heat_map.empty()) white = write_heat_map(options.heat_map, comparison, options.scale);
+    if (!options.side_by_side.empty()) {
+        white = options.scale.value_or(heat_map_white(comparison));
+        write_side_by_side(options.side_by_side, options.first, options.second, comparison,
+                           require_positive("--scale", *white));
+    }
     if (options.json) {
         print_as_json(comparison, white);
     } else {
@@ -90,8 +105,9 @@ void add_compare_command(CLI::App& program, int& exit_code) {
     add_option(*command, "--heatmap", options->heat_map, "PNG",
                "Write a picture of the difference: black none, white most");
     add_option(*command, "--scale", options->scale, "X",
-               "Difference that the heat map shows white; else the largest")
-        .needs("--heatmap");
+               "Difference that heat maps show white; else the largest");
+    add_option(*command, "--side-by-side", options->side_by_side, "PNG",
+               "Write a picture of A, B and the heat map");
     add_option(*command, "--mask", options->mask, "IMAGE", "Compare only where this image is above 0");
     command->add_flag(
         "--ignore-edges", options->ignore_edges,

@@ -49,12 +49,7 @@ LutTable paper_table(const Options& options) {
 
 /// The light that leaves the skin, M(d) E; without lights that of a white light that brings 1 W/m^2.
 LutTable physical_table(const Options& options) {
-    if (options.table.has_base()) {
-        throw std::invalid_argument("--mode physical makes its base from the skin: leave out --base");
-    }
-    const LutAxis axis = options.table.built_in_axis();
-    const SkinLut skin = base_lut_report(options.skin.tissue(), axis.size(), axis.max_thickness_mm(),
-                                         options.skin.tolerance());
+    const SkinLut skin = options.table.solve_skin(options.skin);
     glm::dvec3 irradiance(1.0);
     if (options.rig.given()) {
         const LightRig rig = options.rig.read();
@@ -66,20 +61,11 @@ LutTable physical_table(const Options& options) {
               << short_number(skin.report.estimated_error) << "; E " << to_text(irradiance)
               << " W/m^2; radiance is the table over pi\n";
     return {recolor(skin.lut, irradiance),
-            {.max_thickness_mm = axis.max_thickness_mm(), .light_weight = irradiance}};
-}
-
-/// What --mode says; the options of skin alone say physical.
-LutMode chosen_mode(const Options& options) {
-    if (!options.skin.any_used()) return options.table.mode();
-    if (options.table.has_mode() && options.table.mode() != LutMode::physical) {
-        throw std::invalid_argument("--skin and its options belong to --mode physical");
-    }
-    return LutMode::physical;
+            {.max_thickness_mm = skin.lut.axis().max_thickness_mm(), .light_weight = irradiance}};
 }
 
 void run(const Options& options) {
-    const LutMode mode = chosen_mode(options);
+    const LutMode mode = options.table.mode(options.skin);
     refuse_overwriting({options.output, options.preview}, {options.rig.path(), options.table.base_path()});
     LutTable table = mode == LutMode::existing   ? existing_table(options)
                      : mode == LutMode::physical ? physical_table(options)
@@ -108,7 +94,7 @@ void add_lut_command(CLI::App& program) {
     CLI::App* command = program.add_subcommand("lut", "Make a lookup table of light coming through skin");
     const auto options = std::make_shared<Options>();
     options->rig.add_to(*command, RigNeed::optional);
-    options->table.add_to(*command, true);
+    options->table.add_to(*command);
     options->skin.add_to(*command);
     command->add_option("--bits", options->bits, "Of a PNG")->check(CLI::IsMember({8, 16}));
     command->add_option("--encoding", options->encoding, "Of a PNG")

@@ -25,6 +25,7 @@ struct Options {
     RigOptions rig;
     MeshOptions mesh;
     TableOptions table;
+    SkinOptions skin;
     std::string lut;
     std::string folder;
     std::string up = "z";
@@ -64,9 +65,9 @@ PovrayCamera frame(const TriangleMesh& mesh, const Options& options) {
 
 /// The glow from a table that was made before: it goes among the scene's pictures as it is.
 PovrayLut use_table(const Options& options, std::map<std::string, std::string>& pictures) {
-    if (options.table.any_used()) {
+    if (options.table.any_used() || options.skin.any_used()) {
         throw std::invalid_argument(
-            "--lut brings its own table: leave out --mode, --base, --size and --max-thickness");
+            "--lut brings its own table: leave out --mode, --base, --size, --max-thickness and the skin's");
     }
     const LutFile file = read_lut(options.lut);
     for (const std::string& note : file.notes) tell(options.lut, note);
@@ -79,10 +80,16 @@ PovrayLut use_table(const Options& options, std::map<std::string, std::string>& 
     return lut;
 }
 
-/// The glow that the macros compute for themselves from the base and the lights.
+/// The glow that the macros compute for themselves from the base or the skin, and the lights.
 PovrayLut compute_table(const Options& options) {
     PovrayLut lut;
-    lut.mode = options.table.mode();
+    lut.mode = options.table.mode(options.skin);
+    if (lut.mode == LutMode::physical) {
+        const BaseLut skin = options.table.solve_skin(options.skin).lut;
+        lut.axis = skin.axis();
+        lut.matrices.assign(skin.matrices().begin(), skin.matrices().end());
+        return lut;
+    }
     if (lut.mode == LutMode::existing) {
         if (options.table.has_base())
             throw std::invalid_argument("--mode existing has a fixed table: leave out --base");
@@ -96,8 +103,9 @@ PovrayLut compute_table(const Options& options) {
 }
 
 /// All files that a scene may have. Of an earlier scene in the folder those go that this one has not.
-const std::set<std::string> scene_files = {"camera.inc", "lights.inc", "lut.exr",   "lut.inc",
-                                           "mesh.inc",   "scene.ini",  "scene.pov", "skinglow.inc"};
+const std::set<std::string> scene_files = {"camera.inc", "columns.inc", "lights.inc",
+                                           "lut.exr",    "lut.inc",     "mesh.inc",
+                                           "scene.ini",  "scene.pov",   "skinglow.inc"};
 
 /// Nothing that is read may stand where a file of the scene will.
 void check_folder(const Options& options) {
@@ -145,6 +153,7 @@ void add_povray_command(CLI::App& program) {
     options->rig.add_to(*command, RigNeed::with_camera);
     options->mesh.add_to(*command, "--mesh");
     options->table.add_to(*command);
+    options->skin.add_to(*command);
     add_option(*command, "--lut", options->lut, "FILE",
                "A table of skinglow lut; else the scene computes its own by the macros");
     add_option(*command, "-o,--output", options->folder, "DIR",
@@ -159,7 +168,8 @@ void add_povray_command(CLI::App& program) {
     add_option(*command, "--surface", options->surface, "R G B",
                "Also a matt surface of this color, lit by the lights");
     command->footer(
-        "Example: skinglow povray table1.json --mesh head.obj --unit 100 --group body --up y -o scene");
+        "Example: skinglow povray table1.json --mesh head.obj --unit 100 --group body --up y -o scene\n"
+        "Example: skinglow povray table1.json --mesh head.obj --mode physical --skin ear -o scene");
     command->callback([options] { run(*options); });
 }
 

@@ -34,14 +34,29 @@ std::string describe(const TissueParameter& parameter) {
 
 }  // namespace
 
-void TableOptions::add_to(CLI::App& command, bool with_skin) {
-    std::string modes = "paper: base * (B + L); existing: a fixed reddish table that knows no lights";
-    std::set<std::string> names{"existing", "paper"};
-    if (with_skin) {
-        modes += "; physical: the skin of --skin times the lights' irradiance";
-        names.insert("physical");
-    }
-    command.add_option("--mode", mode_, modes)->check(CLI::IsMember(names))->default_str("paper");
+LutMode TableOptions::mode(const SkinOptions& skin) const {
+    const LutMode chosen = mode_ ? lut_mode(*mode_) : LutMode::paper;
+    if (!skin.any_used()) return chosen;
+    if (mode_ && chosen != LutMode::physical)
+        throw std::invalid_argument("--skin and its options belong to --mode physical");
+    return LutMode::physical;
+}
+
+SkinLut TableOptions::solve_skin(const SkinOptions& skin) const {
+    if (has_base())
+        throw std::invalid_argument("--mode physical makes its base from the skin: leave out --base");
+    const LutAxis axis = built_in_axis();
+    return base_lut_report(skin.tissue(), axis.size(), axis.max_thickness_mm(), skin.tolerance());
+}
+
+void TableOptions::add_to(CLI::App& command) {
+    const std::set<std::string> names{"existing", "paper", "physical"};
+    command
+        .add_option("--mode", mode_,
+                    "paper: base * (B + L); existing: a fixed reddish table that knows no lights; physical: "
+                    "the skin of --skin times the lights' irradiance")
+        ->check(CLI::IsMember(names))
+        ->default_str("paper");
     add_option(command, "--base", base_, "IMAGE",
                "Base lookup image, thickness along x; else the built-in six-Gaussian skin");
     add_option(command, "--size", size_, "N", "Texels of the built-in base")

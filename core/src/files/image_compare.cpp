@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <iterator>
 #include <limits>
-#include <numbers>
 
-#include "files/atomic_file.h"
 #include "files/image_io.h"
 #include "numerics/argument_check.h"
 #include "rig_files/file_error.h"
@@ -74,6 +72,21 @@ std::vector<char> left_out(const std::filesystem::path& first_path, LinearImage&
     return out;
 }
 
+std::vector<std::pair<double, double>> percentiles_of(const ImageComparison& comparison) {
+    std::vector<float> sorted;
+    sorted.reserve(comparison.compared_pixels);
+    std::copy_if(comparison.error.begin(), comparison.error.end(), std::back_inserter(sorted),
+                 [](float error) { return error >= 0.0F; });
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<std::pair<double, double>> found;
+    for (const double percent : {50.0, 90.0, 95.0, 99.0, 99.9}) {
+        // A little less, so that rounding does not take the next one.
+        const double rank = std::ceil(percent / 100.0 * static_cast<double>(sorted.size()) - 1e-6);
+        found.emplace_back(percent, sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1]);
+    }
+    return found;
+}
+
 ImageDifference make_difference(double sum_of_squares, double max, double count, double peak) {
     ImageDifference difference{std::sqrt(sum_of_squares / count), max, {}};
     if (difference.rms > 0.0) difference.psnr = 20.0 * (std::log10(peak) - std::log10(difference.rms));
@@ -130,6 +143,7 @@ ImageComparison compare_images(const std::filesystem::path& first_path,
         refuse_file(first_path, "has no pixel left to compare",
                     "the mask and the edges leave out all of them");
     }
+    comparison.percentiles = percentiles_of(comparison);
     const auto count = static_cast<double>(comparison.compared_pixels);
     for (std::size_t channel = 0; channel < 3; ++channel) {
         comparison.channel[channel] =
@@ -138,44 +152,6 @@ ImageComparison compare_images(const std::filesystem::path& first_path,
     comparison.total =
         make_difference(squares[0] + squares[1] + squares[2], worst, 3.0 * count, options.peak);
     return comparison;
-}
-
-std::array<double, 3> heat_color(double value) {
-    constexpr double start = 0.5;
-    constexpr double rotations = -1.5;
-    const double brightness = std::clamp(value, 0.0, 1.0);
-    const double angle = 2.0 * std::numbers::pi * (start / 3.0 + 1.0 + rotations * brightness);
-    const double amplitude = brightness * (1.0 - brightness) / 2.0;
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    // Green 2011, Eq. 2: directions of constant perceived brightness around the gray diagonal.
-    return {std::clamp(brightness + amplitude * (-0.14861 * c + 1.78277 * s), 0.0, 1.0),
-            std::clamp(brightness + amplitude * (-0.29227 * c - 0.90649 * s), 0.0, 1.0),
-            std::clamp(brightness + amplitude * (1.97294 * c), 0.0, 1.0)};
-}
-
-double write_heat_map(const std::filesystem::path& path, const ImageComparison& comparison,
-                      std::optional<double> scale) {
-    if (small_extension(path) != ".png") refuse_file(path, "cannot hold a heat map", "name it .png");
-    const double largest = comparison.total.max > 0.0 ? comparison.total.max : 1.0;
-    const double white = scale ? require_positive("heat map scale", *scale) : largest;
-    std::vector<std::uint8_t> pixels;
-    pixels.reserve(comparison.error.size() * 4);
-    for (const float error : comparison.error) {
-        if (error < 0.0F) {
-            pixels.insert(pixels.end(), {0, 0, 0, 0});
-            continue;
-        }
-        for (const double channel : heat_color(error / white)) {
-            pixels.push_back(static_cast<std::uint8_t>(std::lround(channel * 255.0)));
-        }
-        pixels.push_back(255);
-    }
-    OIIO::ImageSpec spec(comparison.width, comparison.height, 4, OIIO::TypeUInt8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    write_atomically(path,
-                     image_bytes(path, spec, {{"skinglow:heat_map_white", to_text(white)}}, pixels.data()));
-    return white;
 }
 
 }  // namespace skinglow::detail

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "files/image_file.h"
@@ -35,6 +37,8 @@ struct ImageComparison {
     std::size_t left_out_pixels = 0;
     std::size_t worst_x = 0;  ///< pixel of the largest difference, from the left and the top
     std::size_t worst_y = 0;
+    /// `error` of the compared pixels: the value that so many percent of them do not exceed.
+    std::vector<std::pair<double, double>> percentiles;
     std::vector<float> error;  ///< (height, width): largest absolute difference of the channels; -1 left out
     std::vector<std::string> notes;  ///< what reading the files decided
 };
@@ -61,6 +65,18 @@ ImageComparison compare_images(const std::filesystem::path& first, const std::fi
 /// @return the scale
 double write_heat_map(const std::filesystem::path& path, const ImageComparison& comparison,
                       std::optional<double> scale = {});
+
+/// Writes both images and the heat map beside each other (8-bit sRGB PNG, whole or not at all).
+/// @param heat_map_white  as write_heat_map gives it
+/// @throws FileError where an image cannot be read or written
+void write_side_by_side(const std::filesystem::path& path, const std::filesystem::path& first,
+                        const std::filesystem::path& second, const ImageComparison& comparison,
+                        double heat_map_white);
+
+/// The picture of write_heat_map: (height, width, 4), 8 bits.
+std::vector<std::uint8_t> heat_map_pixels(const ImageComparison& comparison, double white);
+/// What is white without a scale: the largest difference, 1 where there is none.
+double heat_map_white(const ImageComparison& comparison);
 
 /// Color of a heat map at 0 to 1, sRGB-encoded 0 to 1: brightness rises evenly, so that brighter is always
 /// worse. The cubehelix of D. A. Green, "A colour scheme for the display of astronomical intensity images",

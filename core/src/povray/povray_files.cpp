@@ -1,6 +1,8 @@
 #include <skinglow/povray.h>
 
 #include <algorithm>
+#include <array>
+#include <glm/common.hpp>
 #include <iterator>
 
 #include "numerics/argument_check.h"
@@ -15,22 +17,6 @@ namespace {
 constexpr const char* macro_parts[] = {
 #include "skinglow_inc_text.h"
 };
-
-std::string ini_text(const PovrayScene& scene) {
-    SdlText text;
-    text.add("; povray scene.ini\n; Linear EXR; nine samples on a fixed grid in each pixel.\n");
-    text.add("Input_File_Name=scene.pov\nOutput_File_Name=scene.exr\nOutput_File_Type=E\n");
-    text.add("Width=", scene.camera.width, "\nHeight=", scene.camera.height);
-    text.add(
-        "\nDisplay=Off\nAntialias=On\nSampling_Method=1\nAntialias_Depth=3\nAntialias_Threshold=0\nJitter="
-        "Off\n");
-    if (has_picture(scene.surface)) {
-        // Not declared here: POV-Ray holds on to the first declaration, so that no other could be asked for.
-        text.add(
-            "; Needs Declare=Skinglow_Part=1 (the surface) or 2 (the glow). Their sum is the picture.\n");
-    }
-    return text.take();
-}
 
 std::string surface_pigment(const PovraySurface& surface) {
     SdlText text;
@@ -47,26 +33,63 @@ void add_include(SdlText& text, std::string_view file) {
     text.add("#include \"", file, "\"\n");
 }
 
-std::string scene_text(const PovrayScene& scene, bool lit) {
+/// The mesh at all of its places, as far as the texture.
+std::string object_text(const PovrayMesh& mesh) {
+    const std::string name = mesh_identifier(mesh);
+    if (mesh.instances.empty()) return "object {\n  " + name + "\n";
     SdlText text;
-    const std::string object = "object {\n  " + mesh_identifier(scene.mesh) + "\n  texture { ";
+    text.add("union {\n  object { ", name, " }\n");
+    for (const glm::dmat4& place : mesh.instances) {
+        text.add("  object { ", name, " matrix <");
+        for (int column = 0; column < 4; ++column) {
+            text.add(column > 0 ? ", " : "", place[column].x, ",", place[column].y, ",", place[column].z);
+        }
+        text.add("> }\n");
+    }
+    return text.take();
+}
+
+/// Around the mesh at all of its places.
+Box bounds_of(const PovrayMesh& mesh) {
+    const MeshView geometry = mesh.geometry;
+    Box bounds = *box_of(std::span(&geometry, 1));
+    const std::array<glm::dvec3, 2> ends = {bounds.min, bounds.max};
+    for (const glm::dmat4& place : mesh.instances) {
+        for (std::size_t corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 point(ends[corner & 1U].x, ends[(corner >> 1U) & 1U].y, ends[corner >> 2U].z);
+            const glm::dvec3 moved(place * glm::dvec4(point, 1.0));
+            bounds.min = glm::min(bounds.min, moved);
+            bounds.max = glm::max(bounds.max, moved);
+        }
+    }
+    return bounds;
+}
+
+/// Makes light sources: in a scene of two parts only the first has a surface that they light.
+std::string_view light_sources(const PovrayScene& scene) {
+    if (is_in_parts(scene)) return "(Skinglow_Part = 1 ? 1 : 0)";
+    return scene.surface ? "1" : "0";
+}
+
+std::string scene_text(const PovrayScene& scene, bool with_lights) {
+    SdlText text;
+    const std::string object = object_text(scene.mesh) + "  texture { ";
     text.add("#version 3.7;\nglobal_settings { assumed_gamma 1.0 charset utf8 }\n");
-    const bool parts = has_picture(scene.surface);
+    const bool parts = is_in_parts(scene);
     if (parts) {
         text.add(
             "#ifndef (Skinglow_Part)\n  #error \"Skinglow_Part is not declared; allowed: 1 (the surface) or "
             "2 (the ");
         text.add("glow), as in povray scene.ini Declare=Skinglow_Part=1\\n\"\n#end\n");
     }
+    add_include(text, "skinglow.inc");
+    if (with_lights) text.add("#declare Skinglow_Light_Sources = ", light_sources(scene), ";\n");
     add_include(text, "camera.inc");
     add_include(text, "mesh.inc");
+    if (with_lights) add_include(text, "lights.inc");
     if (parts) text.add("#if (Skinglow_Part = 1)\n");
     if (scene.background != glm::dvec3(0.0)) text.add("background { rgb ", scene.background, " }\n");
-    if (lit) add_include(text, "lights.inc");
-    if (parts) {
-        add_include(text, "skinglow.inc");
-        text.add(object, "Skinglow_Surface(" + surface_pigment(*scene.surface) + ", 1) }\n}\n#else\n");
-    }
+    if (parts) text.add(object, "Skinglow_Surface(" + surface_pigment(*scene.surface) + ", 1) }\n}\n#else\n");
     add_include(text, "lut.inc");
     if (scene.surface && !parts) {
         text.add(object, "Skinglow_Skin(" + surface_pigment(*scene.surface) +
@@ -82,22 +105,25 @@ std::string scene_text(const PovrayScene& scene, bool lit) {
 
 std::map<std::string, std::string> povray_files(const PovrayScene& scene) {
     if (has_picture(scene.surface)) povray_image_keyword("surface image", scene.surface->image);
-    validate(scene.mesh, scene.surface, scene.lut.glow);
+    validate(scene, scene.mesh);
     validate(scene.camera);
     validate(scene.lut);
+    if (scene.frames) validate(*scene.frames);
     require_not_negative("background", scene.background);
     if (scene.surface) require_not_negative("surface color", scene.surface->color);
-    const MeshView geometry = scene.mesh.geometry;
     std::vector<Light> lights_on;
     std::copy_if(scene.lights.begin(), scene.lights.end(), std::back_inserter(lights_on), is_on);
-    const bool lit = scene.surface && !lights_on.empty();
-    std::map<std::string, std::string> files = {{"scene.ini", ini_text(scene)},
-                                                {"scene.pov", scene_text(scene, lit)},
+    const bool computed = computes_from_lights(scene.lut);
+    const bool with_lights = (scene.surface || computed) && !lights_on.empty();
+    std::map<std::string, std::string> files = {{"scene.ini", povray_ini_text(scene)},
+                                                {"scene.pov", scene_text(scene, with_lights)},
                                                 {"camera.inc", povray_camera_text(scene.camera)},
                                                 {"mesh.inc", povray_mesh_text(scene)},
-                                                {"lut.inc", povray_lut_text(scene.lut, lights_on)},
+                                                {"lut.inc", povray_lut_text(scene.lut)},
                                                 {"skinglow.inc", povray_macros()}};
-    if (lit) files["lights.inc"] = povray_lights_text(lights_on, *box_of(std::span(&geometry, 1)));
+    if (computed && scene.lut.mode == LutMode::physical)
+        files["columns.inc"] = povray_columns_text(scene.lut);
+    if (with_lights) files["lights.inc"] = povray_lights_text(lights_on, bounds_of(scene.mesh));
     return files;
 }
 

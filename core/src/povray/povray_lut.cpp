@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "numerics/argument_check.h"
@@ -16,34 +17,36 @@ void add_array(SdlText& text, std::string_view name, std::size_t size, std::size
     text.add("\n}\n");
 }
 
-void add_lights(SdlText& text, const std::vector<Light>& lights) {
-    const auto quoted_kind = [&](std::size_t i) {
-        return '"' + std::string(to_text(lights[i].kind())) + '"';
-    };
-    add_array(text, "Light_Kinds", lights.size(), 8, quoted_kind);
-    add_array(text, "Light_Colors", lights.size(), 4, [&](std::size_t i) { return lights[i].color(); });
-    add_array(text, "Light_Positions", lights.size(), 4, [&](std::size_t i) { return lights[i].position(); });
-    add_array(text, "Light_Powers", lights.size(), 8, [&](std::size_t i) { return lights[i].power(); });
-}
-
-void add_paper_table(SdlText& text, const PovrayLut& lut, const std::vector<Light>& lights) {
+void add_paper_table(SdlText& text, const PovrayLut& lut) {
     const AttenuationCoefficients& k = lut.coefficients;
     text.add("// Base lookup: brightness by thickness.\n");
     add_array(text, "Base", lut.base.size(), 8, [&](std::size_t i) { return lut.base[i]; });
     text.add("#declare Skinglow_Blood_Weight = ", lut.blood_weight, ";  // B\n");
-    text.add("// Lights that are on. Colors as vectors: POV-Ray keeps `rgb` colors in 24 bits only.\n");
-    text.add("#declare Skinglow_Light_Count = ", lights.size(), ";\n");
-    if (!lights.empty()) add_lights(text, lights);
     text.add("// Eq. 2 and 3: what the distances are measured to, and k_c, k_l, k_q.\n");
-    text.add("#declare Skinglow_Light = Skinglow_Light_Weight(Skinglow_Light_Count, ");
-    text.add(
-        lights.empty()
-            ? "0, 0, 0, 0"
-            : "Skinglow_Light_Kinds, Skinglow_Light_Colors, Skinglow_Light_Positions, Skinglow_Light_Powers");
-    text.add(",\n    ", lut.point, ", ", glm::dvec3(k.constant, k.linear, k.quadratic), ");  // L\n");
+    text.add("#declare Skinglow_Weight = Skinglow_Listed_Weight(", lut.point, ", ",
+             glm::dvec3(k.constant, k.linear, k.quadratic), ");  // L\n");
     text.add(
         "#declare Skinglow_Table = Skinglow_Recolor(Skinglow_Base, Skinglow_Blood_Weight, "
-        "Skinglow_Light)\n");
+        "Skinglow_Weight)\n");
+}
+
+void add_physical_table(SdlText& text, const PovrayLut& lut) {
+    text.add("#include \"columns.inc\"\n// W/m^2 of the lights where they are measured, and of the world.\n");
+    text.add("#declare Skinglow_E = Skinglow_Listed_Irradiance(", lut.point, ") + ", lut.world_irradiance,
+             ";\n");
+    text.add(
+        "#declare Skinglow_Table = Skinglow_Recolor_Columns(Skinglow_Red_Column, Skinglow_Green_Column,\n"
+        "    Skinglow_Blue_Column, Skinglow_Diffuse_Radiance(Skinglow_E))\n");
+}
+
+void check_picture(const PovrayThicknessPicture& picture) {
+    const std::string_view keyword = povray_image_keyword("thickness image", picture.file);
+    if (keyword != "exr" && keyword != "png" && keyword != "tiff") {
+        refuse_argument("thickness image", "\"" + sdl_comment(picture.file) + "\"",
+                        "a name that ends in .exr, .png, .tif or .tiff");
+    }
+    require_finite("thickness at black", picture.black_mm);
+    require_finite("thickness at white", picture.white_mm);
 }
 
 }  // namespace
@@ -80,32 +83,57 @@ std::string_view povray_image_keyword(std::string_view field, std::string_view f
 
 void validate(const PovrayLut& lut) {
     require_not_negative("strength", lut.strength);
+    if (lut.thickness) check_picture(*lut.thickness);
     if (lut.glow != PovrayGlow::macros) {
         if (povray_image_keyword("LUT image", lut.image) != "exr") {
             refuse_argument("LUT image", "\"" + sdl_comment(lut.image) + "\"", "a name that ends in .exr");
         }
+        if (lut.thickness) {
+            refuse_argument("glow", "an image, with a thickness image",
+                            "macros: they look the thickness up in a table of their own");
+        }
         return;
     }
-    if (lut.mode == LutMode::physical) {
-        refuse_argument("glow", "macros in mode physical",
-                        "image: skinglow.inc computes modes existing and paper");
-    }
     if (lut.mode == LutMode::existing) return;
+    require_finite("point", lut.point);
+    if (lut.mode == LutMode::physical) {
+        require_count("matrices", lut.matrices.size(), lut.axis.size(), "the axis's");
+        for (std::size_t i = 0; i < lut.matrices.size(); ++i) {
+            for (int column = 0; column < 3; ++column)
+                require_finite(entry_name("matrices", i), lut.matrices[i][column]);
+        }
+        require_finite("world_irradiance", lut.world_irradiance);
+        return;
+    }
     require_count("base", lut.base.size(), lut.axis.size(), "the axis's");
     for (std::size_t i = 0; i < lut.base.size(); ++i)
         require_not_negative(entry_name("base", i), lut.base[i]);
     require_finite("blood_weight", lut.blood_weight);
-    require_finite("point", lut.point);
     validate(lut.coefficients);
 }
 
-std::string povray_lut_text(const PovrayLut& lut, const std::vector<Light>& lights_on) {
+std::string povray_columns_text(const PovrayLut& lut) {
+    SdlText text;
+    text.add(
+        "// Skin of mode physical: what comes through of red, green and blue light alone, per unit of "
+        "radiant ");
+    text.add("exitance: the\n// columns of M(d), linear Rec.709, ", lut.axis.size(), " entries, 0 to ",
+             lut.axis.max_thickness_mm(), " mm. For Skinglow_Recolor_Columns.\n");
+    const std::array<std::string_view, 3> names = {"Red_Column", "Green_Column", "Blue_Column"};
+    for (int column = 0; column < 3; ++column) {
+        add_array(text, names[static_cast<std::size_t>(column)], lut.matrices.size(), 4,
+                  [&](std::size_t i) { return lut.matrices[i][column]; });
+    }
+    return text.take();
+}
+
+std::string povray_lut_text(const PovrayLut& lut) {
     SdlText text;
     const bool by_thickness = lut.glow != PovrayGlow::texels;
     if (by_thickness) {
         text.add("// Lookup of the light that comes through, mode `", to_text(lut.mode),
                  "`: ", lut.axis.size(), " entries, 0 to ", lut.axis.max_thickness_mm(),
-                 " mm, at the centers of u's texels. Linear Rec.709.\n");
+                 " mm, at the centers of u's texels. Linear Rec.709. After lights.inc.\n");
     } else {
         text.add("// The light that comes through at points of the skin. Linear Rec.709.\n");
     }
@@ -120,9 +148,18 @@ std::string povray_lut_text(const PovrayLut& lut, const std::vector<Light>& ligh
         text.add("#declare Skinglow_Table = Skinglow_Six_Gaussian(", lut.axis.size(), ", ",
                  lut.axis.max_thickness_mm(), ")\n");
     } else {
-        add_paper_table(text, lut, lights_on);
+        if (lut.mode == LutMode::paper) add_paper_table(text, lut);
+        if (lut.mode == LutMode::physical) add_physical_table(text, lut);
     }
-    text.add("#declare Skinglow_Lookup = Skinglow_Table_Pigment(Skinglow_Table)\n");
+    if (lut.thickness) {
+        text.add("#declare Skinglow_Thickness_mm = Skinglow_Picture_Thickness(",
+                 sdl_string("thickness image", lut.thickness->file), ", ", lut.thickness->black_mm, ", ",
+                 lut.thickness->white_mm, ")\n#declare Skinglow_Lookup = ");
+        text.add("Skinglow_Thickness_Pigment(Skinglow_Table, ", lut.axis.max_thickness_mm(),
+                 ", Skinglow_Thickness_mm, 1)\n");
+    } else {
+        text.add("#declare Skinglow_Lookup = Skinglow_Table_Pigment(Skinglow_Table)\n");
+    }
     return text.take();
 }
 

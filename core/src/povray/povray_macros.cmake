@@ -1,7 +1,17 @@
-# skinglow_embed_text(FILE HEADER): the file as a list of string literals, none longer than compilers allow. ASCII only.
-function(skinglow_embed_text file header)
-    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+# skinglow_embed_macros(FILE HEADER): the file with the macros that it includes put in their places, as a list of string
+# literals, none longer than compilers allow. ASCII only. One file: POV-Ray 3.7 opens the file of a macro at each call from another.
+function(skinglow_embed_macros file header)
     file(READ "${file}" text)
+    get_filename_component(folder "${file}" DIRECTORY)
+    set(sources "${file}")
+    string(REGEX MATCHALL "#include \"skinglow_[a-z]+\\.inc\"\n" includes "${text}")
+    foreach(include IN LISTS includes)
+        string(REGEX MATCH "[a-z_]+\\.inc" name "${include}")
+        file(READ "${folder}/${name}" part)
+        string(REPLACE "${include}" "${part}" text "${text}")
+        list(APPEND sources "${folder}/${name}")
+    endforeach()
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${sources})
     string(LENGTH "${text}" length)
     set(literals "")
     set(begin 0)

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <glm/matrix.hpp>
 
 #include "geometry/weld.h"
 #include "numerics/argument_check.h"
@@ -52,16 +53,18 @@ void require_finite_list(std::string_view name, std::span<const Vector> values) 
 
 }  // namespace
 
-void validate(const PovrayMesh& mesh, const std::optional<PovraySurface>& surface, PovrayGlow glow) {
+void validate(const PovrayScene& scene, const PovrayMesh& mesh) {
     const std::size_t corners = 3 * mesh.geometry.triangles().size();
     if (corners == 0) refuse_argument("mesh", "0 triangles", "1 or more");
     const std::size_t vertices = mesh.geometry.vertices().size();
-    if (glow == PovrayGlow::texels) {
+    if (scene.lut.glow == PovrayGlow::texels) {
         require_count("glow_uv", mesh.glow_uv.size(), corners, "three per triangle");
         require_finite_list<glm::dvec2>("glow_uv", mesh.glow_uv);
     } else {
-        require_count("lut_u", mesh.lut_u.size(), vertices, "one per vertex");
-        for (std::size_t i = 0; i < vertices; ++i) require_finite(entry_name("lut_u", i), mesh.lut_u[i]);
+        if (!has_own_uv(scene) || !mesh.lut_u.empty())
+            require_count("lut_u", mesh.lut_u.size(), vertices, "one per vertex");
+        for (std::size_t i = 0; i < mesh.lut_u.size(); ++i)
+            require_finite(entry_name("lut_u", i), mesh.lut_u[i]);
     }
     if (!mesh.vertex_normals.empty() && !mesh.corner_normals.empty()) {
         refuse_argument("normals", "given per vertex and per corner", "one of the two");
@@ -72,7 +75,15 @@ void validate(const PovrayMesh& mesh, const std::optional<PovraySurface>& surfac
         require_count("corner_normals", mesh.corner_normals.size(), corners, "three per triangle");
     require_finite_list<glm::dvec3>("vertex_normals", mesh.vertex_normals);
     require_finite_list<glm::dvec3>("corner_normals", mesh.corner_normals);
-    if (has_picture(surface)) {
+    for (std::size_t i = 0; i < mesh.instances.size(); ++i) {
+        const glm::dmat4& place = mesh.instances[i];
+        for (int column = 0; column < 4; ++column)
+            require_finite(entry_name("instances", i), glm::dvec3(place[column]));
+        if (glm::determinant(glm::dmat3(place)) == 0.0)
+            refuse_argument(entry_name("instances", i)(), "flat",
+                            "a matrix with a determinant that is not 0");
+    }
+    if (has_picture(scene.surface) || has_own_uv(scene)) {
         require_count("surface_uv", mesh.surface_uv.size(), corners, "three per triangle");
         require_finite_list<glm::dvec2>("surface_uv", mesh.surface_uv);
     }
@@ -85,7 +96,8 @@ std::string mesh_identifier(const PovrayMesh& mesh) {
 std::string povray_mesh_text(const PovrayScene& scene) {
     const PovrayMesh& mesh = scene.mesh;
     const Weld used = used_vertices(mesh.geometry);
-    const bool in_parts = has_picture(scene.surface);
+    const bool in_parts = is_in_parts(scene);
+    const bool picture_uv = in_parts || has_own_uv(scene);
     SdlText text;
     text.reserve(used.first.size() * 180 + mesh.geometry.triangles().size() * 60);
     text.add("// ", sdl_comment(mesh.name),
@@ -104,17 +116,16 @@ std::string povray_mesh_text(const PovrayScene& scene) {
     const Weld corner_normals = by_corner ? weld(normals) : Weld{};
     if (smooth) add_vectors(text, "normal_vectors", by_corner ? corner_normals.first : used.first, normal_at);
 
-    const Weld corner_uv = in_parts ? weld<glm::dvec2>(mesh.surface_uv) : Weld{};
-    if (in_parts) {
-        text.add("#if (Skinglow_Part = 1)\n");
+    const Weld corner_uv = picture_uv ? weld<glm::dvec2>(mesh.surface_uv) : Weld{};
+    if (in_parts) text.add("#if (Skinglow_Part = 1)\n");
+    if (picture_uv)
         add_vectors(text, "uv_vectors", corner_uv.first, [&](std::uint32_t i) { return mesh.surface_uv[i]; });
-        text.add("#else\n");
-    }
+    if (in_parts) text.add("#else\n");
     const bool by_texel = scene.lut.glow == PovrayGlow::texels;
     const Weld glow_uv = by_texel ? weld<glm::dvec2>(mesh.glow_uv) : Weld{};
     if (by_texel) {
         add_vectors(text, "uv_vectors", glow_uv.first, [&](std::uint32_t i) { return mesh.glow_uv[i]; });
-    } else {
+    } else if (!has_own_uv(scene)) {
         const double first = scene.lut.axis.texel_offset();
         add_vectors(text, "uv_vectors", used.first, [&](std::uint32_t i) {
             return glm::dvec2(std::clamp(mesh.lut_u[i], first, 1.0 - first), 0.5);
@@ -126,11 +137,9 @@ std::string povray_mesh_text(const PovrayScene& scene) {
         return used.index[mesh.geometry.triangles()[i / 3][static_cast<int>(i % 3)]];
     });
     if (by_corner) add_corner_indices(text, "normal_indices", corner_normals);
-    if (in_parts) {
-        text.add("#if (Skinglow_Part = 1)\n");
-        add_corner_indices(text, "uv_indices", corner_uv);
-        text.add("#else\n");
-    }
+    if (in_parts) text.add("#if (Skinglow_Part = 1)\n");
+    if (picture_uv) add_corner_indices(text, "uv_indices", corner_uv);
+    if (in_parts) text.add("#else\n");
     if (by_texel) add_corner_indices(text, "uv_indices", glow_uv);
     if (in_parts) text.add("#end\n");
     text.add("  uv_mapping\n}\n");

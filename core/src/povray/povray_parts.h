@@ -8,21 +8,39 @@
 namespace skinglow::detail {
 
 /// Each checks its part of the scene first; std::invalid_argument names the field.
-void validate(const PovrayMesh& mesh, const std::optional<PovraySurface>& surface, PovrayGlow glow);
+void validate(const PovrayScene& scene, const PovrayMesh& mesh);
 void validate(const PovrayCamera& camera);
 void validate(const PovrayLut& lut);
+void validate(const PovrayFrames& frames);
 
-/// Whether the surface's color is an image, so that the scene is rendered in two parts.
 inline bool has_picture(const std::optional<PovraySurface>& surface) {
     return surface && !surface->image.empty();
 }
 
+/// Whether the scene is rendered in two parts: the surface's picture and the lookup have uv coordinates of
+/// their own each, and mesh2 has one set.
+inline bool is_in_parts(const PovrayScene& scene) {
+    return has_picture(scene.surface) && !scene.lut.thickness;
+}
+
+/// Whether the mesh has the uv coordinates of pictures alone.
+inline bool has_own_uv(const PovrayScene& scene) {
+    return scene.lut.thickness.has_value();
+}
+
+/// Whether the lookup is computed from the lights in the scene's text.
+inline bool computes_from_lights(const PovrayLut& lut) {
+    return lut.glow == PovrayGlow::macros && lut.mode != LutMode::existing;
+}
+
 std::string mesh_identifier(const PovrayMesh& mesh);
 
+std::string povray_ini_text(const PovrayScene& scene);
 std::string povray_mesh_text(const PovrayScene& scene);
 std::string povray_camera_text(const PovrayCamera& camera);
 std::string povray_lights_text(const std::vector<Light>& lights_on, const Box& bounds);
-std::string povray_lut_text(const PovrayLut& lut, const std::vector<Light>& lights_on);
+std::string povray_lut_text(const PovrayLut& lut);
+std::string povray_columns_text(const PovrayLut& lut);
 
 /// Refuses a file name with a folder in it, an empty one, or one whose type POV-Ray does not read.
 /// @return POV-Ray's keyword for the type, "exr" or another

@@ -49,7 +49,7 @@ class Rasterizer {
   public:
     Rasterizer(const MeshView& mesh, const UnitBox& to_unit, std::span<const glm::vec3> texels,
                std::size_t height)
-        : mesh_(mesh), to_unit_(to_unit), texels_(texels), last_row_(static_cast<double>(height) - 1) {
+        : mesh_(mesh), to_unit_(to_unit), texels_(texels), rows_(height) {
         result_.triangle.assign(height * tile_image_width, SurfaceTexels::none);
         result_.distance.assign(height * tile_image_width, 0.0F);
         areas_.assign(mesh.triangles().size(), -1.0F);
@@ -117,11 +117,11 @@ class Rasterizer {
 
     template <typename Use>
     void for_each_texel(const glm::dvec2& low, const glm::dvec2& high, const Use& use) const {
-        const double last_x = std::min(high.x, static_cast<double>(tile_image_width - 1));
-        const double last_y = std::min(high.y, last_row_);
-        for (double y = std::max(low.y, 0.0); y <= last_y; ++y) {
-            for (double x = std::max(low.x, 0.0); x <= last_x; ++x)
-                use(static_cast<std::size_t>(y) * tile_image_width + static_cast<std::size_t>(x), {x, y});
+        const glm::dvec2 size(tile_image_width, rows_);
+        const glm::uvec2 first(glm::clamp(low, glm::dvec2(0.0), size));
+        const glm::uvec2 end(glm::clamp(high + 1.0, glm::dvec2(0.0), size));
+        for (std::size_t y = first.y; y < end.y; ++y) {
+            for (std::size_t x = first.x; x < end.x; ++x) use(y * tile_image_width + x, glm::dvec2(x, y));
         }
     }
 
@@ -148,7 +148,7 @@ class Rasterizer {
     const MeshView& mesh_;
     const UnitBox& to_unit_;
     std::span<const glm::vec3> texels_;
-    double last_row_;
+    std::size_t rows_;
     std::vector<float> areas_;         ///< of each triangle; -1: does not lie in one tile
     std::vector<std::uint8_t> holds_;  ///< of each triangle, a_texel and elsewhere
     SurfaceTexels result_;

@@ -182,6 +182,9 @@ def check_inputs_are_read_once_a_job(work):
     with (folder / digests.NAME).open("a") as file:
         file.write('["cut sho')
     assert len(sb.render_batch(folder, "1-3", ["warm"]).kept) == 3
+    (folder / digests.NAME).unlink()
+    (folder / digests.NAME).mkdir()
+    assert len(sb.render_batch(folder, "1-3", ["warm"]).kept) == 3
 
 
 def check_names_of_workers(work):

@@ -1,15 +1,18 @@
 """Jobs for render farms: what is written, and what is refused before anything is."""
 
 import json
+import types
 from pathlib import Path
 
 import bpy
+import numpy as np
 import skinglow_blender as sb
 from skinglow_blender.batch.files import input_files
-from skinglow_blender.farm import openjd
+from skinglow_blender.farm import frozen_frames, openjd
 from skinglow_blender.farm.openjd import _ranges
+from skinglow_blender.ui import farm_operators
 
-from inside.batch_studio import raises, studio
+from inside.batch_studio import RIGS, color_at, expected, raises, shown_in, studio
 
 write = sb.farm.write_openjd
 
@@ -44,13 +47,9 @@ def check_bundle_of_a_live_scene(work):
     assert rig == {"name": "Rig", "type": "STRING", "range": ["day=warm,cold lamp", f"noon={work / 'noon.json'}"]}
     assert frames["range"] == "{{Param.Frames}}" and frames["chunks"]["defaultTaskCount"] == "{{Param.FramesPerTask}}"
     given = arguments(work / "job")
-    for option, value in (
-        ("--onto", "Patch"),
-        ("--scene", scene.name),
-        ("--timeout", "90"),
-        ("--python-exit-code", "2"),
-        ("--rigs", "{{Task.Param.Rig}}"),
-    ):
+    wanted = {"--onto=Patch", f"--scene={scene.name}", "--rigs={{Task.Param.Rig}}", "--frames={{Task.Param.Frames}}"}
+    assert wanted <= set(given), given
+    for option, value in (("--timeout", "90"), ("--python-exit-code", "2"), ("--progress", "openjd")):
         assert given[given.index(option) + 1] == value
     parameters = read(work / "job", "parameters")
     assert parameters == {
@@ -84,6 +83,26 @@ def check_bundle_of_a_frozen_scene(work):
     light = work / "skinglow_frozen" / "Patch"
     assert set(attached) >= {str(light / f"light_000{n}.exr") for n in (1, 2, 3)}
     assert attached == [str(path) for path in input_files()]
+
+
+def check_frames_of_a_frozen_scene(work):
+    """What a task does, in this Blender: other than with the full program, the add-on is there."""
+    scene, _ = saved_studio(work)
+    sb.freeze(folder=work / "light")
+    folder = work / "frozen {pictures}"
+    (folder / ".0003.elsewhere-1.part.exr").parent.mkdir()
+    (folder / ".0003.elsewhere-1.part.exr").write_bytes(b"part")
+    assert frozen_frames.main("1-3:2", folder, scene.name, 600.0) == 0
+    assert sorted(path.name for path in folder.iterdir()) == ["0001.exr", "0003.exr"]
+    for frame in (1, 3):
+        lights = [(color_at(rig, frame), 1.0) for rig in RIGS]
+        np.testing.assert_allclose(shown_in(folder / f"000{frame}.exr"), expected(*lights), rtol=1e-5)
+    assert frozen_frames.frame_numbers("-3--1, 7,8") == [-3, -2, -1, 7, 8]
+    (folder / "0002.exr").mkdir()
+    assert frozen_frames.main("2", folder, scene.name, 0.0) == 1 and not list(folder.glob(".*"))
+    assert frozen_frames.main("2", folder, "no scene", 0.0) == 2
+    (work / "light").rename(work / "gone")
+    assert frozen_frames.main("2", folder, scene.name, 0.0) == 2
 
 
 def check_refused_before_anything_is_written(work):
@@ -122,6 +141,29 @@ def check_operator(work):
     except RuntimeError as error:
         assert "freeze them first" in str(error)
     assert not Path(work / "frozen").exists()
+
+
+def check_operator_tells_what_workers_need(work):
+    class Layout:
+        """Keeps what is drawn."""
+
+        def __init__(self):
+            self.texts, self.names = [], []
+
+        def prop(self, _owner, name, **_named):
+            self.names.append(name)
+
+        def label(self, text, **_named):
+            self.texts.append(text)
+
+    for light, need, rigs in (
+        ("LIVE", "Each worker needs Blender with", 1),
+        ("FROZEN", "Workers need Blender alone", 0),
+    ):
+        operator = types.SimpleNamespace(layout=Layout(), light=light)
+        farm_operators.SKINGLOW_OT_write_openjd.draw(operator, bpy.context)
+        assert need in " ".join(operator.layout.texts), operator.layout.texts
+        assert operator.layout.names.count("rigs") == rigs and operator.layout.names[0] == "light"
 
 
 def check_ranges(work):

@@ -5,6 +5,7 @@ import numpy as np
 import skinglow_blender as sb
 from skinglow_blender.batch import rigs
 from skinglow_blender.identity import HAS_UID, key_of
+from skinglow_blender.live.live_update import why_changed
 from skinglow_blender.session import SESSION
 
 from inside.scenes import BLOOD, add_light, camera_above, depsgraph, link, patch, render_settings
@@ -107,6 +108,18 @@ def check_hidden_light_of_the_name_of_a_linked_one(work):
         return {row["object"]: row["reason"] for row in rows}
 
     assert reasons() == {key_of(shown): "", key_of(hidden): "hidden in the viewport"}
+
+    def signatures():
+        return SESSION.atlases[key_of(obj.skinglow.group), "VIEWPORT"].signatures
+
+    whys = []
+    for change in (lambda: hidden.hide_set(False), lambda: setattr(hidden.data, "energy", 7.0)):
+        change()
+        before = signatures()[key_of(obj)]
+        depsgraph()
+        whys.append(why_changed(before, signatures()[key_of(obj)]))
+    assert whys == ["light 'Other light' added", "light 'Other light': power"], whys
+    hidden.hide_set(True)
     bpy.context.scene.collection.children.link(apart)
     apart.objects.link(hidden)
     bpy.context.scene.collection.objects.unlink(hidden)

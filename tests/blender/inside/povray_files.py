@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 import skinglow_blender as sb
 
+from inside.bad_input import refused
 from inside.scenes import add_light, black_material, camera_above, depsgraph, patch, read_exr, render_settings, table_1
 
 
@@ -93,6 +94,88 @@ def check_only_what_is_used(work):
     assert text.count("light_source") == 1
     assert len(bpy.data.images) == images
     povray(work / "whole", "+W8", "+H8")
+
+
+HOSTILE = ("ear:left", "ear/left", "Ear_left", "CON", "nul.x", "..", "-D", " ", "x" * 60, "x" * 60 + "y", "\u00e4" * 30)
+
+
+def check_hostile_names_have_a_folder_each(work):
+    for name in HOSTILE:
+        sb.make_skin(patch(name), thickness=[1.0] * 4, mode="paper")
+    camera_above()
+    for _ in range(2):
+        files = sb.export_povray(depsgraph(), work / "hostile")
+        assert len(set(files)) == len(files) and all(path.is_file() for path in files)
+        assert {path for path in (work / "hostile").rglob("*") if path.is_file()} == set(files)
+        folders = {path.parent.relative_to(work / "hostile") for path in files}
+        assert len({str(folder).casefold() for folder in folders}) == len(HOSTILE), folders
+        assert all(len(folder.parts) == 1 for folder in folders), folders
+        assert not {"con", "nul.x"} & {str(folder).casefold() for folder in folders}
+    assert not files.notes
+
+
+def surface_of(obj):
+    """The Base Color of the skin's Principled BSDF, and its node tree."""
+    tree = obj.active_material.node_tree
+    principled = next(n for n in tree.nodes if n.bl_idname == "ShaderNodeBsdfPrincipled")
+    return principled.inputs["Base Color"], tree
+
+
+def check_what_is_not_exported_is_told(work):
+    obj = patch()
+    sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
+    camera = camera_above()
+    socket, tree = surface_of(obj)
+    socket.default_value = (0.2, 0.4, 0.6, 1.0)
+    assert not sb.export_povray(depsgraph(), work / "plain").notes
+    texture = tree.nodes.new("ShaderNodeTexImage")
+    tree.links.new(texture.outputs["Color"], socket)
+    texture.image = bpy.data.images.new("tiles", 4, 4, tiled=True)
+    files = sb.export_povray(depsgraph(), work / "told")
+    assert len(files.notes) == 1 and "picture in tiles (UDIM) 'tiles'" in files.notes[0], files.notes
+    assert "rgb <0.2" in (work / "told" / "scene.pov").read_text()
+    # Generated pixels have no file, and are written; tiles of the earlier export are no more in the folder.
+    texture.image = bpy.data.images.new("drawn", 4, 4)
+    texture.image.pixels.foreach_set(np.tile((0.5, 0.25, 0.125, 1.0), 16).astype(np.float32))
+    obj.data.uv_layers.new()
+    files = sb.export_povray(depsgraph(), work / "told")
+    assert not files.notes and work / "told" / "surface.png" in files
+    image = bpy.data.images.load(str(work / "told" / "surface.png"))
+    np.testing.assert_allclose(image.pixels[:3], (0.5, 0.25, 0.125), atol=1 / 255)
+    mix = tree.nodes.new("ShaderNodeRGB")
+    tree.links.new(mix.outputs["Color"], socket)
+    files = sb.export_povray(depsgraph(), work / "told")
+    assert "comes from the node 'RGB'" in files.notes[0] and not (work / "told" / "surface.png").exists()
+    camera.data.dof.use_dof = True
+    assert "Depth of field" in sb.export_povray(depsgraph(), work / "told").notes[1]
+    camera.data.type = "PANO"
+    before = {path: path.read_bytes() for path in (work / "told").iterdir()}
+    refused(sb.SkinError, "is pano", sb.export_povray, depsgraph(), work / "told")
+    assert before == {path: path.read_bytes() for path in (work / "told").iterdir()}
+
+
+def check_whole_or_not_at_all(work):
+    good, bad = patch("Good"), patch("Zbad")
+    for obj in (good, bad):
+        sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
+    camera_above()
+    before = sorted(work.rglob("*"))
+    bad.data.attributes["skinglow_thickness_known"].data[0].value = 0.0
+    bad.data.update()
+    refused(sb.SkinError, "not known at 1 of 4", sb.export_povray, depsgraph(), work / "never")
+    assert sorted(work.rglob("*")) == before
+    sb.make_skin(bad, thickness=[1.0] * 4, mode="paper")
+    sb.export_povray(depsgraph(), work / "twice")
+    # The last file of the second scene cannot be replaced: both stay as they were, users' files too.
+    (work / "twice" / "Good" / "own.txt").write_text("mine")
+    (work / "twice" / "Zbad" / "skinglow.inc").unlink()
+    (work / "twice" / "Zbad" / "skinglow.inc" / "full").mkdir(parents=True)
+    held = {path: path.read_bytes() for path in (work / "twice").rglob("*") if path.is_file()}
+    good.skinglow.strength = 3.0
+    bpy.ops.object.select_all(action="DESELECT")
+    refused(sb.SkinError, "Cannot write", sb.export_povray, depsgraph(), work / "twice")
+    assert held == {path: path.read_bytes() for path in (work / "twice").rglob("*") if path.is_file()}
+    assert not list(work.rglob(".skinglow_*"))
 
 
 def check_several_skins(work):

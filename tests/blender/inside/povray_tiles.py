@@ -3,10 +3,12 @@
 import bpy
 import numpy as np
 import skinglow_blender as sb
+from skinglow_blender.show.group_nodes import build_nodes
 
 from inside.povray_files import away_from_edges, povray
 from inside.scenes import add_light, black_material, camera_above, depsgraph, patch, read_exr, render_settings
-from inside.tile_scenes import ball, fill, make_skins, render, without_updates
+from inside.shape_scenes import lobe, shape_skin, sun
+from inside.tile_scenes import TILES_ONLY, ball, fill, make_skins, render, without_updates
 
 SIZE = 96
 
@@ -26,6 +28,7 @@ def check_same_light_in_tiles(work):
     obj.data.materials[1].skinglow.is_skin = False
     obj.skinglow.strength = 0.75
     sb.update(depsgraph())
+    build_nodes(group, TILES_ONLY)
     camera_above(26.0, (0.0, 0.0, 100.0))
     scene = render_settings(SIZE, SIZE)
     scene.cycles.samples, scene.cycles.filter_width = 64, 1.0
@@ -44,6 +47,28 @@ def check_same_light_in_tiles(work):
     assert ((expected[center].max(axis=2) == 0.0) == (shown[center].max(axis=2) < 1e-6)).mean() > 0.95
     assert (expected[center].max(axis=2) == 0.0).sum() > 10
     rms = float(np.sqrt(np.mean((shown[where] - expected[where]) ** 2)))
+    assert rms <= 1 / 255, rms
+    return rms
+
+
+def check_through_the_shape(work):
+    """The light that was solved, as Blender renders it: root of the mean square at most 1/255 of the brightest."""
+    sun()
+    obj = lobe(material=black_material())
+    obj.rotation_euler = (0.2, 0.3, 0.4)
+    shape_skin(obj, strength=2.0)
+    camera_above(14.0, (0.0, 0.0, 100.0))
+    scene = render_settings(SIZE, SIZE)
+    scene.cycles.samples, scene.cycles.filter_width = 64, 1.0
+    expected = render(work / "shape.exr")
+    sb.export_povray(depsgraph(), work / "shape", surface=False)
+    assert (work / "shape" / "tiles.exr").is_file()
+    povray(work / "shape")
+    shown = read_exr(work / "shape" / "scene.exr")
+    brightest = expected.max()
+    where = away_from_edges(expected / brightest) & away_from_edges(shown / brightest)
+    assert where.sum() > 1000
+    rms = float(np.sqrt(np.mean((shown[where] - expected[where]) ** 2)) / brightest)
     assert rms <= 1 / 255, rms
     return rms
 

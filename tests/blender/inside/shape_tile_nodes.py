@@ -148,6 +148,20 @@ def check_saved_and_removed(work):
     assert not bpy.data.node_groups
 
 
+def check_deleted_image(work):
+    """It is told, and made anew where tiles are placed the next time."""
+    left, _right = two_patches()
+    group = make_skins([left])
+    with without_updates():
+        fill(group, [left], light=constant(0.25))
+        assert not sb.health(left)
+        bpy.data.images.remove(TILES.all_of(group)[3])
+        assert [fault.what for fault in sb.health(left)] == ["An image of its tiles was deleted"]
+        fill(group, [left], light=constant(0.25))
+        assert not sb.health(left) and len(TILES.all_of(group)) == 4
+        np.testing.assert_allclose(render(work / "anew.exr")[:, :8], 0.25, rtol=1e-6)
+
+
 def check_copied_group(work):
     """A group made a single user gets tile images of its own."""
     left, right = two_patches()

@@ -1,14 +1,14 @@
 // Verification of skinglow.inc: Eq. 1-3 for the paper's experiment (its Table 1) against values derived by hand in
 // exact fractions. Stops with an #error at a relative difference above 1e-12; writes the results to
-// verify_equations.txt, "name M p E" for M * 2^E.
+// equations.txt, "name M p E" for M * 2^E.
 //
-//   cd povray_macros && povray verify_equations.pov -D -F
+//   cd povray_macros && povray verify/equations.pov -D -F
 
 #version 3.7;
 #include "skinglow.inc"
 global_settings { assumed_gamma 1.0 }
 
-#fopen Numbers "verify_equations.txt" write
+#fopen Numbers "equations.txt" write
 
 #macro Verify(Name, Value, Expected)
     #write (Numbers, Name, " ", Skinglow_Exact_Text(Value), "\n")

@@ -1,11 +1,13 @@
 // Verification of an exported scene: prints the table that the macros compute from its base lookup and its lights, for
-// comparison with the table of the exporting program. Copy this file next to the scene's lut.inc (mode `paper` or `existing`,
-// glow by macros) and run it there; it writes lut.txt, one entry per line: red, green and blue, each as M p E for M * 2^E.
+// comparison with the table of the exporting program. Copy this file next to the scene's lut.inc (glow by macros, any mode) and
+// run it there; it writes lut.txt, one entry per line: red, green and blue, each as M p E for M * 2^E.
 //
-//   povray verify_lut.pov -D -F
+//   povray lut.pov -D -F
 
 #version 3.7;
 global_settings { assumed_gamma 1.0 }
+#include "skinglow.inc"
+#if (file_exists("lights.inc")) #include "lights.inc" #end
 #include "lut.inc"
 
 #fopen Numbers "lut.txt" write
