@@ -24,8 +24,10 @@ def check_lights_and_places(_work):
     assert_through(obj)
     obj.location, obj.rotation_euler = (10000.0, -200.0, 30.0), (0.4, 0.2, -0.3)
     lamp.location = (10003.0, -198.0, 21.0)
+    assert_through(obj)
     turned = assert_through_turned(obj)
     obj.scale = (1.2, -0.9, 1.0)
+    assert_through(obj)
     mirrored = assert_through_turned(obj)
     assert [r.why for r in sb.update(depsgraph())] == []
     return {"same": same, "turned": turned, "mirrored": mirrored}

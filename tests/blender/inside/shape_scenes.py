@@ -4,6 +4,7 @@ import bpy
 import numpy as np
 import skinglow as sg
 import skinglow_blender as sb
+from mathutils import Matrix, Vector
 from skinglow_blender.show.image_pairs import read_pixels
 from skinglow_blender.show.tile_image import TILE_PROPERTY, TILES
 
@@ -44,8 +45,6 @@ def sun(location_free=True, energy=3.0, direction=(0.2, 0.1, 1.0)):
 
 def turn(obj, direction):
     """Has a light shine in a direction."""
-    from mathutils import Vector
-
     obj.rotation_euler = Vector(direction).to_track_quat("-Z", "Y").to_euler()
 
 
@@ -79,41 +78,42 @@ def _front(obj, graph):
     return SESSION.tile_atlases[key_of(obj.skinglow.group), graph.mode].front
 
 
-def core_lights(graph, origin):
-    """The lights as seen from there: far from the world's origin single precision would be what differs."""
-    lights = []
-    for light, matrix in visible_lights(graph):
-        matrix[:3, 3] -= origin
-        lights.append(physical_light(light.data, matrix))
-    return lights
+def fresh(obj, graph, as_it_stands=False, flesh=None, environment=None, occluders=None, cell_mm=1.0, reentries=2):
+    """(k, 3) radiance at the targets, the targets, and where no light falls on the skin.
 
-
-def fresh(obj, graph, flesh=None, environment=None, occluders=None, cell_mm=1.0, reentries=2):
-    """(k, 3) radiance at the targets, solved in the world's orientation, and the targets."""
+    as_it_stands  solved in the orientation of the world, which cuts other cells from a turned body; else turned back
+    """
     vertices, triangles, texels = corners(obj, graph)
-    origin = np.array(obj.evaluated_get(graph).matrix_world.translation, float)
-    vertices = vertices - origin
+    place, rotation, _scale = obj.evaluated_get(graph).matrix_world.decompose()
+    # Far from the world's origin single precision would be what differs.
+    to_world = np.array(Matrix.Translation(place) @ rotation.to_matrix().to_4x4(), float)
+    if as_it_stands:
+        to_world[:3, :3] = np.eye(3)
+    vertices = (vertices - to_world[:3, 3]) @ to_world[:3, :3]
+    lights = [physical_light(light.data, np.linalg.inv(to_world) @ matrix) for light, matrix in visible_lights(graph)]
     rows = int(obj.data["skinglow_tiles"]["rows"])
     targets = sg.TileTargets(vertices, triangles, texels, rows, unit_mm=1.0)
     where = {"points": targets.points, "normals": targets.normals}
     flesh = {"tissue": sg.TISSUE_PRESETS["light"]} if flesh is None else flesh
     shape = sg.Shape(vertices, triangles, unit_mm=1.0, cell_mm=cell_mm, **where, **flesh)
-    lit = shape.light(core_lights(graph, origin), environment, occluders, reentries)
-    dark = (lit.exitance - lit.transmitted).max(axis=1) < 1e-3 * lit.exitance.max()
+    lit = shape.light(lights, environment, occluders, reentries)
+    dark = (lit.exitance - lit.transmitted).max(axis=1) <= 1e-3 * lit.exitance.max()
     return lit.transmitted / np.pi, targets, dark
 
 
-def differences(obj, graph, in_the_dark=False, **expected):
+def differences(obj, graph, as_it_stands=False, **expected):
     """(RMS of what the tiles show against what is computed afresh, mean of that).
 
-    in_the_dark  where no light falls on the skin: elsewhere what comes through is a small difference of what the skin
-                 sends out, and cells that lie in another way change it
+    as_it_stands  only where no light falls on the skin: elsewhere what comes through is a small difference of what the
+                  skin sends out, and other cells change it
     """
-    wanted, targets, dark = fresh(obj, graph, **expected)
+    wanted, targets, dark = fresh(obj, graph, as_it_stands, **expected)
     pixels = shown(obj, graph, len(targets.of_texel))
     there = targets.of_texel >= 0
-    if in_the_dark:
+    if as_it_stands:
         there &= dark[targets.of_texel]
+    if not there.any():
+        return 0.0, 0.0
     found, want = pixels[there][:, :3], wanted[targets.of_texel[there]]
     return float(np.sqrt(((found - want) ** 2).mean())), float(want.mean())
 
@@ -127,5 +127,5 @@ def assert_through(obj, tolerance=1e-3, graph=None, **more):
 
 
 def assert_through_turned(obj, tolerance=0.1):
-    """The same of a body that is turned in the world: other cells are cut from it."""
-    return assert_through(obj, tolerance, in_the_dark=True)
+    """The same of a body that is turned in the world, as it stands."""
+    return assert_through(obj, tolerance, as_it_stands=True)
