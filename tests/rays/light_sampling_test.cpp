@@ -29,9 +29,10 @@ double chi_square(const PreparedLight& light, const glm::dvec3& point, const glm
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     std::vector<double> counts(bins * bins, 0.0);
+    const LightSampler sampler(light, point, normal);
     for (int i = 0; i < samples; ++i) {
         const double u = uniform(random);
-        const glm::dvec2 where = to_square(sample_light(light, point, normal, u, uniform(random)));
+        const glm::dvec2 where = to_square(sampler.at(u, uniform(random)));
         const auto bin = [](double x) {
             EXPECT_TRUE(x > -1e-9 && x < 1.0 + 1e-9) << x;
             return static_cast<std::size_t>(std::clamp(x * bins, 0.0, bins - 1.0));

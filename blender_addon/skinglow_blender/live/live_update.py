@@ -240,17 +240,34 @@ def _wanted_nodes(
     group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]], there: GroupNodes
 ) -> GroupNodes:
     shapes = {skin.key for _obj, skin in members if skin.shape is not None}
-    others = [s for o, s in _settings_of(group) if key_of(o) not in shapes]
-    by_tiles = bool(shapes) or any(s.mode == "PHYSICAL" and s.weights == "SHAPE" for s in others)
-    by_rows = len(shapes) < len(members) or any(s.mode != "PHYSICAL" or s.weights != "SHAPE" for s in others)
+    # All of the file's objects are asked only where that may keep nodes that there are.
+    others = _Others(group, shapes)
+    by_tiles = bool(shapes) or (there.tiles and others.any(lambda s: s.mode == "PHYSICAL" and s.weights == "SHAPE"))
+    by_rows = len(shapes) < len(members) or (
+        there.rows and others.any(lambda s: s.mode != "PHYSICAL" or s.weights != "SHAPE")
+    )
     if not by_rows:
         return GroupNodes(None, tiles=True, rows=False)
     return GroupNodes(_wanted_layout(atlas, members, others), tiles=by_tiles, rows=True)
 
 
-def _wanted_layout(
-    atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]], others: list[bpy.types.PropertyGroup]
-) -> Layout | None:
+class _Others(NamedTuple):
+    """The skins of a group in the whole file, in other scenes too, but for some."""
+
+    group: bpy.types.NodeTree
+    left_out: set[str]
+
+    def any(self, holds: Callable[[bpy.types.PropertyGroup], bool]) -> bool:
+        """Whether the settings of one of them have a property."""
+        for obj in bpy.data.objects:
+            settings = obj.skinglow
+            if settings.enabled and obj.type == "MESH" and settings.group == self.group and holds(settings):
+                if key_of(obj) not in self.left_out:
+                    return True
+        return False
+
+
+def _wanted_layout(atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]], others: _Others) -> Layout | None:
     """The layout of rows that are lit per pixel; None: plain rows."""
     wanted = atlas.layout
     tables = [atlas.tables[skin.key] for _obj, skin in members if skin.key in atlas.tables]
@@ -258,20 +275,13 @@ def _wanted_layout(
     if not lit and wanted is None:
         return None
     # The nodes for light per pixel are kept as long as any skin of the group may be lit so.
-    may_be_lit = any(s.mode == "PHYSICAL" and s.weights not in ("OBJECT", "SHAPE") for s in others)
-    if not lit and not may_be_lit:
+    if not lit and not others.any(lambda s: s.mode == "PHYSICAL" and s.weights not in ("OBJECT", "SHAPE")):
         return None
     entries = max((len(table.colors) for table in tables), default=1)
     for table in lit:
         needed = layout_of(table.lighting, entries)
         wanted = needed if wanted is None else wanted.joined(needed)
     return wanted if wanted.entries >= entries else wanted._replace(entries=entries)
-
-
-def _settings_of(group: bpy.types.NodeTree) -> list[tuple[bpy.types.Object, bpy.types.PropertyGroup]]:
-    """The skins of a group in the whole file, in other scenes too."""
-    meshes = [obj for obj in bpy.data.objects if obj.type == "MESH"]
-    return [(o, o.skinglow) for o in meshes if o.skinglow.enabled and o.skinglow.group == group]
 
 
 def _atlas(group: bpy.types.NodeTree, mode: str, images: list[bpy.types.Image]) -> Atlas:

@@ -187,8 +187,8 @@ VisibleFraction visible_fraction(const Occluders& occluders, const PreparedRig& 
             const auto sees = [&](const LightSample& ray) {
                 return !scene.occluded(points[p], ray.direction, ray.distance, excluded);
             };
-            result.at_points[i] =
-                visible_fraction_at(lights[k].light, points[p], normal, p, options.samples, sees);
+            result.at_points[i] = visible_fraction_at(LightSampler(lights[k].light, points[p], normal), p,
+                                                      options.samples, sees);
         }
     };
     for_each_block(irradiance.size(), options.threads, work, {});

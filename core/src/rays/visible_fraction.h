@@ -4,7 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
-#include <limits>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 
 #include "radiometry/prepared_light.h"
 
@@ -17,30 +18,50 @@ struct LightSample {
     double emission;       ///< what comes from there, before the receiver's cosine; 0 or more, any unit
 };
 
-/// Whether a light is so small from a point that one ray stands for all.
-bool is_sharp(const PreparedLight& light, const glm::dvec3& point);
+/// Rays from a point to the points that cover a light.
+class LightSampler {
+  public:
+    /// @param normal  unit length; only looked at within a ball
+    LightSampler(const PreparedLight& light, const glm::dvec3& point, const glm::dvec3& normal);
 
-/// A ray to one of the points that cover a light. Uniform (u, v) in the unit square give samples that, each
-/// weighted by emission times the receiver's cosine, stand for the light as PreparedLight has it: disks and
-/// balls uniformly in solid angle, flat lights uniformly in area. From within a ball they cover the
-/// hemisphere that is faced.
-/// @param normal  unit length; only looked at within a ball
-LightSample sample_light(const PreparedLight& light, const glm::dvec3& point, const glm::dvec3& normal,
-                         double u, double v);
+    /// Sine of the angular radius of the light, about; above 1 where it is all around.
+    double sine() const { return sine_; }
+    /// Whether it is so small that one ray, to its center, stands for all.
+    bool is_sharp() const { return is_sharp_; }
+    LightSample center() const { return {to_center_, distance_, 1.0}; }
+
+    /// Uniform (u, v) in the unit square give samples that, each weighted by emission times the receiver's
+    /// cosine, stand for the light as PreparedLight has it: disks and balls uniformly in solid angle, flat lights
+    /// uniformly in area. From within a ball they cover the hemisphere that is faced.
+    LightSample at(double u, double v) const;
+
+    const glm::dvec3& normal() const { return normal_; }
+
+  private:
+    glm::dvec3 on_cap(double u, double v) const;
+    LightSample on_ball(double u, double v) const;
+    LightSample on_area(double u, double v) const;
+
+    const PreparedLight* light_;
+    glm::dvec3 point_;
+    glm::dvec3 normal_;
+    glm::dvec3 to_center_;
+    double distance_;  ///< to the center; infinite for a sun
+    double sine_;
+    bool is_sharp_;
+    bool inside_ = false;    ///< of a ball
+    glm::dmat3 frame_{1.0};  ///< about the middle of a sun's or ball's directions
+    double cap_height_ = 0;  ///< 1 - cos of their angular radius
+};
 
 /// Visible fraction of a light at a point where it has an effect, by rays to points that cover it.
-/// @param normal   unit length
+/// @param sampler  of the light and the point
 /// @param index    of the point, for its samples
 /// @param samples  rays to a light that has an extent; one goes to a light that has none
 /// @param sees     sees(LightSample): whether nothing is in the way of a ray
 template <typename Sees>
-double visible_fraction_at(const PreparedLight& light, const glm::dvec3& point, const glm::dvec3& normal,
-                           std::size_t index, int samples, const Sees& sees) {
-    if (is_sharp(light, point)) {
-        const bool is_sun = light.kind() == LightKind::sun;
-        const double distance = is_sun ? std::numeric_limits<double>::infinity() : light.distance(point);
-        return sees(LightSample{light.to_light(point), distance, 1.0}) ? 1.0 : 0.0;
-    }
+double visible_fraction_at(const LightSampler& sampler, std::size_t index, int samples, const Sees& sees) {
+    if (sampler.is_sharp()) return sees(sampler.center()) ? 1.0 : 0.0;
     // Points of the unit square: the rank-1 lattice of the golden ratio, shifted by the point's own member of the R2
     // sequence (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018), whose base is the real
     // root of x^3 = x + 1.
@@ -54,9 +75,9 @@ double visible_fraction_at(const PreparedLight& light, const glm::dvec3& point, 
     LightSample highest{};
     double highest_cosine = -2;
     for (int i = 0; i < samples; ++i) {
-        const LightSample ray = sample_light(light, point, normal, fraction((i + 0.5) / samples + shift_u),
-                                             fraction(i * golden + shift_v));
-        const double cosine = glm::dot(ray.direction, normal);
+        const LightSample ray =
+            sampler.at(fraction((i + 0.5) / samples + shift_u), fraction(i * golden + shift_v));
+        const double cosine = glm::dot(ray.direction, sampler.normal());
         if (cosine > highest_cosine) {
             highest_cosine = cosine;
             highest = ray;

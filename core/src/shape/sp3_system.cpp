@@ -137,23 +137,6 @@ Sp3System::Sp3System(const VoxelGrid& grid, std::span<const BoundarySample> samp
     }
 }
 
-void Sp3System::solve_lower(std::size_t c, const LanePair& right, std::span<LanePair> result) const {
-    const auto& n = neighbors_[c];
-    // Those before this cell; n may be the cell of zeros at the end.
-    LanePair around = result[n[0]];
-    around += result[n[2]];
-    around += result[n[4]];
-    const Lanes u = right.first + flux1_ * around.first;
-    const Lanes w = right.second + flux2_ * around.second;
-    const Block& b = blocks_[class_of_[c]];
-    result[c] = {b.i11 * u + b.i12 * w, b.i12 * u + b.i22 * w};
-}
-
-LanePair Sp3System::diagonal(std::size_t c, const LanePair& x) const {
-    const Block& b = blocks_[class_of_[c]];
-    return {b.d11 * x.first + b.d12 * x.second, b.d12 * x.first + b.d22 * x.second};
-}
-
 int Sp3System::solve(std::span<const LanePair> right, std::span<LanePair> modes, double tolerance) const {
     // With A = K + K^T - D, K the lower triangle with the diagonal D, the preconditioned matrix is
     // K^-1 A K^-T = K^-T + K^-1 (1 - D K^-T): two sweeps, no product with A (S. C. Eisenstat, "Efficient
@@ -187,17 +170,12 @@ int Sp3System::solve(std::span<const LanePair> right, std::span<LanePair> modes,
         if (!any) break;
         for (std::size_t c = count; c-- > 0;) {
             const auto& n = neighbors_[c];
-            LanePair around = above[n[1]];
-            around += above[n[3]];
-            around += above[n[5]];
+            const LanePair around = sum_of(above, n[1], n[3], n[5]);
             const LanePair z = diagonal(c, residual[c]);
             LanePair& d = direction[c];
             d = {z.first + keep * d.first, z.second + keep * d.second};
             const LanePair from = {flux1_ * around.first, flux2_ * around.second};
-            const Lanes u = d.first + from.first;
-            const Lanes w = d.second + from.second;
-            const Block& b = blocks_[class_of_[c]];
-            above[c] = {b.i11 * u + b.i12 * w, b.i12 * u + b.i22 * w};
+            above[c] = solve_block(c, d.first + from.first, d.second + from.second);
             left[c] = from * -1.0F;
         }
         CellSum sum;

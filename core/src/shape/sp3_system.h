@@ -41,9 +41,26 @@ class Sp3System {
         Lanes d11, d12, d22;
         Lanes i11, i12, i22;
     };
-    /// One cell's unknowns of the equations' lower triangle, the cells before it being known.
-    void solve_lower(std::size_t cell, const LanePair& right, std::span<LanePair> result) const;
-    LanePair diagonal(std::size_t cell, const LanePair& x) const;
+    /// One cell's unknowns of the equations' lower triangle, the cells before it being known. In the class, as all
+    /// below, for the compiler to put it into the loops over cells.
+    void solve_lower(std::size_t c, const LanePair& right, std::span<LanePair> result) const {
+        const auto& n = neighbors_[c];
+        // Those before this cell; n may be the cell of zeros at the end.
+        const LanePair around = sum_of(result, n[0], n[2], n[4]);
+        result[c] =
+            solve_block(c, right.first + flux1_ * around.first, right.second + flux2_ * around.second);
+    }
+    static LanePair sum_of(std::span<const LanePair> x, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        return {x[a].first + x[b].first + x[c].first, x[a].second + x[b].second + x[c].second};
+    }
+    LanePair solve_block(std::size_t c, const Lanes& u, const Lanes& w) const {
+        const Block& b = blocks_[class_of_[c]];
+        return {b.i11 * u + b.i12 * w, b.i12 * u + b.i22 * w};
+    }
+    LanePair diagonal(std::size_t c, const LanePair& x) const {
+        const Block& b = blocks_[class_of_[c]];
+        return {b.d11 * x.first + b.d12 * x.second, b.d12 * x.first + b.d22 * x.second};
+    }
 
     Lanes flux1_, flux2_;        ///< between neighbors, mm
     std::vector<Block> blocks_;  ///< the first is that of cells amid others

@@ -19,7 +19,8 @@ namespace {
 
 /// Relative error of the irradiance of one light.
 constexpr double area_tolerance = 1e-4;
-/// Rays that tell whether a vertex lies in a penumbra; one to a light seen under less than narrow.
+/// Rays that tell whether a vertex lies in a penumbra. To a light seen under less than narrow, whose penumbra is, one
+/// goes first, and so many where a neighbor disagrees: most vertices at a shadow's edge lie in no penumbra.
 constexpr int first_samples = 4;
 constexpr double narrow = 0.1;  ///< sine of the angular radius
 /// Rays to the world.
@@ -29,13 +30,6 @@ constexpr float lift_mm = 0.02F;
 /// Of a vertex that does not receive light.
 constexpr float no_light = -1;
 constexpr std::size_t block = 256;
-
-bool is_narrow(const PreparedLight& light, const glm::dvec3& point) {
-    if (light.kind() == LightKind::sun) return light.sin_sun_radius() < narrow;
-    const double distance = light.distance(point);
-    if (light.kind() == LightKind::area) return light.area_scale() < narrow * distance;
-    return light.ball_term(distance).sin_radius < narrow;
-}
 
 }  // namespace
 
@@ -73,11 +67,11 @@ bool VertexLight::sees(const Receiver& receiver, const glm::dvec3& direction, do
                                                  distance, excluded_);
 }
 
-double VertexLight::fraction(const PreparedLight& light, const Receiver& receiver, std::uint32_t vertex,
+double VertexLight::fraction(const LightSampler& sampler, const Receiver& receiver, std::uint32_t vertex,
                              int samples) const {
-    return visible_fraction_at(
-        light, receiver.point, receiver.normal, vertex, samples,
-        [&](const LightSample& ray) { return sees(receiver, ray.direction, ray.distance); });
+    return visible_fraction_at(sampler, vertex, samples, [&](const LightSample& ray) {
+        return sees(receiver, ray.direction, ray.distance);
+    });
 }
 
 std::vector<std::uint8_t> VertexLight::doubtful(std::span<const float> fraction) const {
@@ -107,8 +101,9 @@ WhiteIrradiance VertexLight::of_light(const PreparedLight& light) const {
             open[i] = light.irradiance(receiver.point, receiver.normal, area_tolerance);
             if (!(open[i] > 0)) continue;
             const std::uint32_t v = wanted_[i];
-            const int samples = is_narrow(light, receiver.point) ? 1 : first_samples;
-            seen[v] = static_cast<float>(fraction(light, receiver, v, std::min(samples, options_.samples)));
+            const LightSampler sampler(light, receiver.point, receiver.normal);
+            const int samples = sampler.sine() < narrow ? 1 : first_samples;
+            seen[v] = static_cast<float>(fraction(sampler, receiver, v, std::min(samples, options_.samples)));
         }
     };
     for_each_block(wanted_.size(), options_.threads, first, {}, block);
@@ -117,7 +112,13 @@ WhiteIrradiance VertexLight::of_light(const PreparedLight& light) const {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t v = wanted_[i];
             if (seen[v] == no_light || again[v] == 0) continue;
-            seen[v] = static_cast<float>(fraction(light, receivers_[i], v, options_.samples));
+            const Receiver& receiver = receivers_[i];
+            const LightSampler sampler(light, receiver.point, receiver.normal);
+            if (options_.samples > first_samples && sampler.sine() < narrow) {
+                seen[v] = static_cast<float>(fraction(sampler, receiver, v, first_samples));
+                if (seen[v] == 0 || seen[v] == 1) continue;
+            }
+            seen[v] = static_cast<float>(fraction(sampler, receiver, v, options_.samples));
         }
     };
     for_each_block(wanted_.size(), options_.threads, second, {}, block);

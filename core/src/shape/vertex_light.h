@@ -15,6 +15,8 @@
 
 namespace skinglow::detail {
 
+class LightSampler;
+
 /// What stands around a body, and how closely shadows are looked at.
 struct ShadowOptions {
     const Occluders* occluders = nullptr;    ///< none: the body alone casts shadows
@@ -55,7 +57,7 @@ class VertexLight {
     };
     Receiver receiver_of(std::uint32_t vertex) const;
     bool sees(const Receiver& receiver, const glm::dvec3& direction, double distance) const;
-    double fraction(const PreparedLight& light, const Receiver& receiver, std::uint32_t vertex,
+    double fraction(const LightSampler& sampler, const Receiver& receiver, std::uint32_t vertex,
                     int samples) const;
     std::vector<std::uint8_t> doubtful(std::span<const float> fraction) const;
 
