@@ -83,7 +83,8 @@ class Builder {
             const std::vector<std::uint32_t> group =
                 faces_about(faces_, twins_, face_of_corner_, face, max_chart_extent * spacing_, dense, chart);
             std::uint64_t alone = 0;
-            for (const std::uint32_t each : group) alone += 2 * (faces_.size(each) - 2);  // halves of 2 x 2
+            for (const std::uint32_t each : group)
+                alone += 2 * (std::uint64_t{faces_.size(each)} - 2);  // halves of 2 x 2
             if (texels(chart_size(chart, spacing_)) <= alone) add_plane(group, chart);
         }
     }
