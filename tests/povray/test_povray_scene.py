@@ -189,7 +189,7 @@ def test_preview_and_final_settings(tmp_path):
     write(tmp_path, square(lights=[], resolution=(64, 8)))
     for section, size in (("", (64, 8)), ("[Preview]", (16, 2)), ("[Final]", (64, 8))):
         run(tmp_path, f"scene.ini{section}", "+Oshown.ppm", "+FP16")
-        assert f"{size[0]} {size[1]}" in (tmp_path / "shown.ppm").read_bytes()[:60].decode(errors="replace")
+        assert f"{size[0]} {size[1]}" in (tmp_path / "shown.ppm").read_bytes()[:400].decode(errors="replace")
 
 
 def test_instances_are_the_same_mesh_elsewhere(tmp_path):

@@ -4,7 +4,6 @@
 import json
 import os
 import shutil
-import subprocess
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager
@@ -15,7 +14,7 @@ from typing import Any, NamedTuple
 import bpy
 
 from ..commands.povray_export import export_povray
-from ..commands.povray_run import povray_program, run_povray
+from ..commands.povray_run import povray_program, run_povray, run_program
 from ..commands.povray_scene import materials_of_skin
 from ..commands.skin import skin_settings_of
 from ..errors import SkinError
@@ -127,10 +126,10 @@ def _compare(obj: bpy.types.Object, scene: bpy.types.Scene, folder: Path, entry:
 def _measured(folder: Path) -> dict[str, Any]:
     pictures = ["blender.exr", "povray.exr", "--ignore-edges", "--side-by-side", "side_by_side.png"]
     command = [compare_program(), "compare", *pictures, "--heatmap", "difference.png", "--json"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise SkinError(done.stderr.strip() or f"skinglow compare ended with exit code {done.returncode}")
-    return json.loads(done.stdout) | {"flip": _perceived(folder)}
+    done = run_program(command, folder)
+    if not done.succeeded:
+        raise SkinError(done.errors.strip() or "skinglow compare failed without a word")
+    return json.loads(done.output) | {"flip": _perceived(folder)}
 
 
 def _perceived(folder: Path) -> float | None:
@@ -142,9 +141,9 @@ def _perceived(folder: Path) -> float | None:
     command = [sys.executable, "-c", FLIP, "blender.exr", "povray.exr"]
     paths = os.pathsep.join(filter(None, (home, os.environ.get("PYTHONPATH"))))
     environment = {**os.environ, "PYTHONPATH": paths}
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, env=environment)
-    words = done.stdout.split()
-    return float(words[-1]) if done.returncode == 0 and words and words[-1][0].isdigit() else None
+    done = run_program(command, folder, environment)
+    words = done.output.split()
+    return float(words[-1]) if done.succeeded and words and words[-1][0].isdigit() else None
 
 
 @contextmanager

@@ -1,15 +1,21 @@
 #pragma once
 
+#include <utility>
+
 #include "shape/solved_light.h"
 
 namespace skinglow::detail {
 
 /// Colors that a tissue makes of what is solved of a light, and of the world.
 struct LightColors {
+    explicit LightColors(std::shared_ptr<const WhiteLight> of) : light(std::move(of)) {}
+
     std::shared_ptr<const WhiteLight> light;
     Lazy<ShapeData::Matrices> matrices;  ///< empty where it gives nothing
 };
 struct WorldColors {
+    explicit WorldColors(std::shared_ptr<const WorldLight> of) : world(std::move(of)) {}
+
     std::shared_ptr<const WorldLight> world;
     Lazy<ShapeData::Colors> colors;
 };

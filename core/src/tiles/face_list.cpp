@@ -56,6 +56,7 @@ FaceList::FaceList(std::span<const glm::dvec3> vertices, std::span<const std::ui
     points_.reserve(vertices.size());
     for (const glm::dvec3& v : vertices) points_.push_back(to_unit(v));
     longest_.resize(face_sizes.size());
+    areas_.resize(face_sizes.size());
     normals_.resize(face_sizes.size());
     for (std::uint32_t face = 0; face < face_sizes.size(); ++face) add_face(face);
 }
@@ -76,6 +77,7 @@ void FaceList::add_face(std::uint32_t face) {
     constexpr double min_area = 1e-12;  // relative to the squared longest edge: less is rounding
     const double size = glm::length(area);
     longest_[face] = std::sqrt(longest_sq);
+    areas_[face] = 0.5 * size;
     normals_[face] = size > min_area * longest_sq ? area / size : glm::dvec3(0.0);
 }
 

@@ -28,6 +28,7 @@ class FaceList {
     /// From corner k of a face to the next one.
     glm::dvec3 edge(std::uint32_t face, std::uint32_t k) const;
     double longest_edge(std::uint32_t face) const { return longest_[face]; }
+    double area(std::uint32_t face) const { return areas_[face]; }
     /// Unit vector by the area that the corners span; 0 for a face without area.
     const glm::dvec3& normal(std::uint32_t face) const { return normals_[face]; }
     /// Length of the unit box's edge in the units given.
@@ -40,6 +41,7 @@ class FaceList {
     std::vector<glm::dvec3> points_;
     std::vector<std::uint32_t> begin_;
     std::vector<double> longest_;
+    std::vector<double> areas_;
     std::vector<glm::dvec3> normals_;
     std::size_t vertices_ = 0;
     double scale_ = 1;

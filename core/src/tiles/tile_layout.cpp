@@ -15,8 +15,10 @@ namespace skinglow::detail {
 namespace {
 
 constexpr std::uint32_t max_cells = tile_image_width - 1;
-/// Faces whose edges are all shorter, in spacings, share the tiles of a plane; quads of this edge have 4 texels each.
-constexpr double dense_edge = 0.75;
+/// Faces share the tiles of a plane where they have so small an area for each of their vertices, in squares of the
+/// spacing, that a plane takes no more points than there are vertices; and where no edge is longer, in spacings.
+constexpr double dense_area = 0.36;
+constexpr double dense_edge = 1.25;
 /// Of such a tile, in spacings.
 constexpr double max_chart_extent = 12;
 /// Texels of a plane are nearer to each other: no edge is a line of them, and faces are tilted against it.
@@ -70,19 +72,27 @@ class Builder {
     }
 
   private:
-    /// Dense faces, in groups.
+    /// Dense faces, in groups; not where faces of their own take fewer texels.
     void share_planes() {
         std::vector<std::uint8_t> dense(faces_.faces());
-        for (std::uint32_t face = 0; face < faces_.faces(); ++face) {
-            dense[face] = available_[face] != 0 && faces_.longest_edge(face) < dense_edge * spacing_ ? 1 : 0;
-        }
+        for (std::uint32_t face = 0; face < faces_.faces(); ++face)
+            dense[face] = available_[face] != 0 && is_dense(face) ? 1 : 0;
         for (std::uint32_t face = 0; face < faces_.faces(); ++face) {
             if (dense[face] == 0) continue;
             PlaneChart chart(faces_, face);
-            add_plane(
-                faces_about(faces_, twins_, face_of_corner_, face, max_chart_extent * spacing_, dense, chart),
-                chart);
+            const std::vector<std::uint32_t> group =
+                faces_about(faces_, twins_, face_of_corner_, face, max_chart_extent * spacing_, dense, chart);
+            std::uint64_t alone = 0;
+            for (const std::uint32_t each : group) alone += 2 * (faces_.size(each) - 2);  // halves of 2 x 2
+            if (texels(chart_size(chart, spacing_)) <= alone) add_plane(group, chart);
         }
+    }
+
+    bool is_dense(std::uint32_t face) const {
+        // In a closed mesh of triangles a vertex has two of them, in one of quads one.
+        const double per_vertex = 2 * faces_.area(face) / (faces_.size(face) - 2);
+        return faces_.longest_edge(face) < dense_edge * spacing_ &&
+               per_vertex < dense_area * spacing_ * spacing_;
     }
 
     /// Pairs of triangles, over the edge that is the longest of both or, after that, of one.

@@ -145,7 +145,7 @@ def check_what_is_not_exported_is_told(work):
     mix = tree.nodes.new("ShaderNodeRGB")
     tree.links.new(mix.outputs["Color"], socket)
     files = sb.export_povray(depsgraph(), work / "told")
-    assert "comes from the node 'RGB'" in files.notes[0] and not (work / "told" / "surface.png").exists()
+    assert f"comes from the node '{mix.name}'" in files.notes[0] and not (work / "told" / "surface.png").exists()
     camera.data.dof.use_dof = True
     assert "Depth of field" in sb.export_povray(depsgraph(), work / "told").notes[1]
     camera.data.type = "PANO"
