@@ -111,6 +111,8 @@ def the_list():
     lists = bpy.context.window_manager.skinglow_lists
     redraw()
     yield from wait_for(lambda: len(lists) and len(lists[0].rows), PATIENCE, "the list of lights")
+    # What a thread finds of the light through the shape is shown as it comes.
+    yield from wait_for(lambda: not (SESSION.shape_worker and SESSION.shape_worker.is_busy), PATIENCE, "the light")
     yield 1.0
     tell("rows", [[row.name, round(row.share, 3), row.reason] for row in lists[0].rows])
     drawn, computed = [], []
