@@ -76,7 +76,7 @@ from skinglow._for_hosts import (
 )
 from skinglow._occlusion import Occluders, VisibleFraction
 from skinglow._renamed import __getattr__ as __getattr__
-from skinglow._shape import LitShape, Shape, ShapePart
+from skinglow._shape import LitShape, Shape, ShapePart, in_thin_parts
 from skinglow._spectra import line_spectrum
 from skinglow._thickness import ThicknessReport, thickness, thickness_report
 from skinglow._thickness_map import (
@@ -175,6 +175,7 @@ __all__ = [
     "LitShape",
     "Shape",
     "ShapePart",
+    "in_thin_parts",
     "ThicknessImage",
     "ThicknessReport",
     "ThicknessSummary",

@@ -11,16 +11,15 @@ import numpy as np
 
 from ..errors import core
 from ..read.measured_geometry import unit_mm
+from ..read.mesh_reading import triangles_of
 from ..read.shown_mesh import TEXEL_ATTRIBUTE
 from ..read.shown_mesh import corner_texels as texels_of
-from .thickness_attribute import SUMMARY, check_local, read
+from .thickness_attribute import SUMMARY, check_local
 
 __all__ = ["TEXEL_ATTRIBUTE", "ensure_tiles", "is_current", "is_of_this_mesh", "remove_tiles", "rows_of", "texels_of"]
 
 #: Mesh property: digest of faces and corners, rows, number of tiles, spacing in mm, and what they were made for.
 TILES_OF_MESH = "skinglow_tiles"
-#: Skin up to this thickness, mm, gets tiles: light does not come through thicker flesh (skinglow.Shape).
-MAX_THICKNESS_MM = 25.0
 #: Distance of texels, mm.
 SPACING_MM = 0.8
 
@@ -39,13 +38,16 @@ def ensure_tiles(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
     sizes, corners = _faces(mesh)
     vertices = np.empty(3 * len(mesh.vertices), np.float32)
     mesh.vertices.foreach_get("co", vertices)
-    thickness, known = read(mesh)
+    matrix, triangles = np.array(obj.matrix_world, np.float64)[:3, :3], triangles_of(mesh)
+    if obj.matrix_world.determinant() < 0.0:
+        triangles = triangles[:, ::-1]  # mirroring reverses the winding order
+    body, unit = vertices.reshape(-1, 3) @ matrix.T, unit_mm(obj, scene)
     made = core().FaceTiles(
-        vertices.reshape(-1, 3) @ np.array(obj.matrix_world, np.float64)[:3, :3].T,
+        body,
         sizes,
         corners,
-        known & (thickness <= MAX_THICKNESS_MM),
-        unit_mm=unit_mm(obj, scene),
+        core().in_thin_parts(body, triangles, unit_mm=unit),
+        unit_mm=unit,
         spacing_mm=SPACING_MM,
     )
     attribute = mesh.attributes.get(TEXEL_ATTRIBUTE)
