@@ -67,8 +67,9 @@ struct ShapeOptions {
 
 /// Points on a surface; each counts for the nearest point of the triangles that face along its normal.
 struct ShapePoints {
-    std::span<const glm::dvec3> points;        ///< units of the mesh, finite; empty: the vertices of the mesh
-    std::span<const glm::dvec3> normals = {};  ///< one each, finite, 0: any; empty: all 0
+    std::span<const glm::dvec3> points;  ///< units of the mesh, finite; empty: the vertices of the mesh
+    /// One each, finite, 0: any; empty: all 0. Up to 60 degrees from the triangle's it is the surface's.
+    std::span<const glm::dvec3> normals = {};
 };
 
 /// Told the fraction that is done, in [0, 1], ascending, 1 last; returns whether to go on. Called on the thread

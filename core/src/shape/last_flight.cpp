@@ -84,6 +84,12 @@ class FlightTracer {
             ray.direction = site.pieces == 0
                                 ? cosine_direction(-ray.normal, escaping_ * x[0], turn - std::floor(turn))
                                 : cosine_direction(-ray.normal, escaping_ * x[3], x[4]);
+            // About a smooth normal a few rays would leave through the triangle that they start from.
+            if (site.pieces == 0) {
+                const glm::vec3 outward = body_.triangles()[site.point.triangle].normal;
+                const float out = glm::dot(ray.direction, outward);
+                if (out > 0) ray.direction -= outward * (2 * out);
+            }
             follow(ray, 131 * static_cast<std::uint64_t>(index) + static_cast<std::uint64_t>(r));
         }
         store(index, rows);
@@ -102,7 +108,7 @@ class FlightTracer {
 
     Ray from_point(const Site& site) const {
         const BodyTriangle& t = body_.triangles()[site.point.triangle];
-        return {site.position - t.normal * surface_.gap(), t.normal};
+        return {site.position - t.normal * surface_.gap(), site.normal};
     }
 
     /// A point about a vertex, by its hat function.

@@ -1,0 +1,24 @@
+"""Exitance at points of the surface: on an edge the nearest triangle is either, and makes no difference."""
+
+import numpy as np
+import shape_bodies as bodies
+import skinglow as sg
+
+
+def test_points_with_smooth_normals_do_not_depend_on_the_triangle_they_are_nearest_to() -> None:
+    vertices, triangles = bodies.lobe(levels=3)
+    middles = 0.5 * (vertices[triangles[:, 0]] + vertices[triangles[:, 1]])
+    corners = vertices[triangles]
+    of_triangles = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    of_vertices = np.zeros_like(vertices)
+    for k in range(3):
+        np.add.at(of_vertices, triangles[:, k], of_triangles)
+    of_vertices /= np.linalg.norm(of_vertices, axis=1, keepdims=True)
+    normals = of_vertices[triangles[:, 0]] + of_vertices[triangles[:, 1]]
+    moved = middles + np.random.default_rng(1).uniform(-5e-4, 5e-4, middles.shape)
+    light = [sg.Light("SUN", direction=(0.2, 0.1, 1.0), power=3.0)]
+    found, other = (
+        sg.Shape(vertices, triangles, cell_mm=1.0, points=points, normals=normals).light(light).exitance
+        for points in (middles, moved)
+    )
+    assert np.sqrt(((found - other) ** 2).mean()) < 0.03 * found.mean()
