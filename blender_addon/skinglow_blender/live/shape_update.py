@@ -261,7 +261,7 @@ def light_of(skin: Skin, reading: SceneReading) -> Light:
     world = reading.world.environment.coefficients if reading.world is not None else None
     return Light(
         lights=tuple(light.signature[1:] for light in lights),
-        lamps=tuple(make_light(light) for light in lights),
+        core_lights=tuple(make_light(light) for light in lights),
         world=tuple(world.ravel().tolist()) if world is not None else (),
         frame=skin.shape.frame,
         reentries=skin.shape.reentries,

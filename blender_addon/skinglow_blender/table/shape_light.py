@@ -16,8 +16,8 @@ from ..errors import core
 from ..read.shown_mesh import BodyMesh, Frame
 from ..skin_settings import TISSUE_SLIDERS
 
-#: How a coarse answer is solved, which is seen while a light moves: within 1 % of the full one. Without light that enters
-#: skin again it would be quicker, and 40 % off.
+#: How a coarse answer is solved, which is seen while a light moves: within 1 % of the full one. Without light that
+#: enters skin again it would be quicker, and 40 % off.
 COARSE = {"solver_tolerance": 1e-2, "shadow_samples": 4}
 #: Parts of the work that a first answer is: finding the parts, making them ready.
 FINDING = 0.1
@@ -117,7 +117,7 @@ class Light(NamedTuple):
     """What falls on a body."""
 
     lights: tuple[tuple, ...]  #: signatures (scene_lights.FIELDS), each without the name
-    lamps: tuple[Any, ...]  #: the same as skinglow.Light, in the world; not compared
+    core_lights: tuple[Any, ...]  #: the same as skinglow.Light, in the world; not compared
     world: tuple[float, ...]  #: coefficients of the environment
     frame: Frame
     reentries: int
@@ -183,8 +183,8 @@ def solve(body: Body, light: Light, progress: Progress, *, coarse: bool, recolor
         yield _solved(shape, body, light, rest, full=False)
     answer = _solved(shape, body, light, rest, full=True)
     yield answer
-    if recolors and light.lamps:
-        answer.lit.recolor([lamp.color for lamp in light.lamps], progress=rest)
+    if recolors and light.core_lights:
+        answer.lit.recolor([each.color for each in light.core_lights], progress=rest)
         yield answer._replace(recolors=True)
 
 
@@ -193,7 +193,7 @@ def _solved(shape: Any, body: Body, light: Light, progress: Progress, *, full: b
     to_body = np.linalg.inv(np.array(light.frame.body_to_world))
     environment = core().Environment(np.reshape(light.world, (9, 3))) if any(light.world) else None
     lit = shape.light(
-        [lamp.moved(to_body) for lamp in light.lamps],
+        [each.moved(to_body) for each in light.core_lights],
         environment.rotated(to_body[:3, :3]) if environment is not None else None,
         light.scene,
         light.reentries if full else 0,
@@ -214,7 +214,7 @@ def recolored(answer: Answer, light: Light) -> Answer | None:
     if not (answer.recolors and answer.light.same_but_colors(light)):
         return None
     colors = []
-    for old, new in zip(answer.light.lamps, light.lamps, strict=True):
+    for old, new in zip(answer.light.core_lights, light.core_lights, strict=True):
         if old.power == 0.0 or new.power / old.power < 0.0:
             return None
         colors.append(np.multiply(new.color, new.power / old.power))
