@@ -22,3 +22,16 @@ def test_points_with_smooth_normals_do_not_depend_on_the_triangle_they_are_neare
         for points in (middles, moved)
     )
     assert np.sqrt(((found - other) ** 2).mean()) < 0.03 * found.mean()
+
+
+def test_rounding_of_vertices_changes_nothing_at_targets_of_tiles() -> None:
+    vertices, triangles = bodies.lobe(levels=4)
+    layout = sg.FaceTiles(vertices, np.full(len(triangles), 3), triangles.ravel())
+    light = [sg.Light("SUN", direction=(0.5, -0.3, -1.0), power=7.0)]
+    found = []
+    for rounding in (0.0, 1e-9):
+        moved = vertices + np.random.default_rng(0).uniform(-rounding, rounding, vertices.shape)
+        targets = sg.TileTargets(moved, triangles, layout.texels.reshape(-1, 3, 3), layout.height)
+        body = sg.Shape(moved, triangles, cell_mm=1.0, points=targets.points, normals=targets.normals)
+        found.append(body.light(light).exitance)
+    assert np.sqrt(((found[0] - found[1]) ** 2).mean()) < 5e-3 * found[0].mean()

@@ -165,6 +165,11 @@ std::optional<SurfacePoint> TriangleTree::nearest(const glm::vec3& point, const 
     std::optional<SurfacePoint> best;
     float best_distance = std::numeric_limits<float>::infinity();
     std::uint32_t best_place = 0;
+    float best_facing = 0;
+    // Points on edges are as near to either triangle, but for rounding: the one that faces along more, or the first.
+    constexpr float same_distance = 1e-5F;  // of the body's size
+    constexpr float same_facing = 1e-3F;
+    const float tie = nodes_.empty() ? 0.0F : same_distance * nodes_[0].radius;
     const auto bound = [&](std::uint32_t node) {
         return glm::length(nodes_[node].center - point) - nodes_[node].radius;
     };
@@ -178,7 +183,7 @@ std::optional<SurfacePoint> TriangleTree::nearest(const glm::vec3& point, const 
     if (!nodes_.empty()) open[count++] = {0, bound(0)};
     while (count > 0) {
         const Open next = open[--count];
-        if (next.bound > best_distance) continue;
+        if (next.bound > best_distance + tie) continue;
         const Node& node = nodes_[next.node];
         if (!node.is_leaf) {
             Open near{next.node + 1, bound(next.node + 1)};
@@ -190,12 +195,17 @@ std::optional<SurfacePoint> TriangleTree::nearest(const glm::vec3& point, const 
         }
         for (std::uint32_t k = node.begin; k < node.end; ++k) {
             const BodyTriangle& t = body_.triangles()[order_[k]];
-            if (facing != glm::vec3(0.0F) && glm::dot(facing, t.normal) <= 0) continue;
+            const float along = glm::dot(facing, t.normal);
+            if (facing != glm::vec3(0.0F) && along <= 0) continue;
             const glm::vec2 uv = nearest_of_triangle(point, corners_[k][0], corners_[k][1], corners_[k][2]);
             const float distance = glm::length(body_.at(t, uv.x, uv.y) - point);
-            if (distance > best_distance || (distance == best_distance && best && k > best_place)) continue;
+            if (best && distance > best_distance - tie) {
+                if (distance > best_distance + tie || along < best_facing - same_facing) continue;
+                if (along <= best_facing + same_facing && k > best_place) continue;
+            }
             best_distance = distance;
             best_place = k;
+            best_facing = along;
             best = SurfacePoint{order_[k], uv.x, uv.y};
         }
     }

@@ -75,7 +75,8 @@ def check_occlusion_and_world(_work):
     corners = np.array([wall.matrix_world @ v.co for v in wall.data.vertices]) - np.array(obj.location)
     scene = sg.Occluders([(corners, [(0, 1, 3), (0, 3, 2)])])
     error, mean = differences(obj, depsgraph(), True, occluders=scene)
-    assert error < 0.1 * mean and mean < 0.8 * free, (error, mean, free)
+    # A turned body is cut into other cells, which differ by a tenth.
+    assert error < 0.15 * mean and mean < 0.8 * free, (error, mean, free)
     wall.location.x += 100.0
     sb.update(depsgraph())
     assert_through_turned(obj)
