@@ -74,9 +74,10 @@ from skinglow._for_hosts import (
     uniform_scale,
     visible_entries,
 )
+from skinglow._lit_shape import LitShape
 from skinglow._occlusion import Occluders, VisibleFraction
 from skinglow._renamed import __getattr__ as __getattr__
-from skinglow._shape import LitShape, Shape, ShapePart, in_thin_parts
+from skinglow._shape import Shape, ShapePart, in_thin_parts
 from skinglow._spectra import line_spectrum
 from skinglow._thickness import ThicknessReport, thickness, thickness_report
 from skinglow._thickness_map import (
