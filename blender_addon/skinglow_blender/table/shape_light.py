@@ -196,12 +196,12 @@ def _solved(shape: Any, body: Body, light: Light, progress: Progress, *, full: b
         [each.moved(to_body) for each in light.core_lights],
         environment.rotated(to_body[:3, :3]) if environment is not None else None,
         light.scene,
-        light.reentries if full else 0,
+        light.reentries,
         excluded=light.own,
         occluder_frame=np.array(light.frame.body_to_world) if light.scene is not None else None,
         previous=body.last_lit,
         progress=progress,
-        **({} if full else {"solver_tolerance": COARSE_TOLERANCE}),
+        **({} if full else COARSE),
     )
     body.last_lit = lit
     error = tuple(float(e) for e in lit.report["error"]) if full else ()

@@ -6,7 +6,7 @@ import skinglow_blender as sb
 from skinglow_blender.show.group_nodes import build_nodes
 
 from inside.povray_files import away_from_edges, povray
-from inside.scenes import add_light, black_material, camera_above, depsgraph, patch, read_exr, render_settings
+from inside.scenes import add_light, black_material, camera_above, depsgraph, read_exr, render_settings
 from inside.shape_scenes import lobe, shape_skin, sun
 from inside.tile_scenes import TILES_ONLY, ball, fill, make_skins, render, without_updates
 
@@ -75,7 +75,7 @@ def check_through_the_shape(work):
 
 def check_tiles_are_exact(work):
     """The image that POV-Ray reads holds the tiles as they are, and a dark row above them."""
-    obj = patch(material=black_material())
+    obj = ball("Ball", material=black_material())
     group = make_skins([obj])
     camera_above()
     with without_updates():

@@ -40,7 +40,11 @@ def wait_for(obj, *kinds, seconds=60.0):
         assert time.monotonic() < end, seen
         time.sleep(0.002)
     if kinds:
-        assert seen[-1] == kinds[-1] and set(seen) <= set(kinds), (seen, kinds)
+        assert seen[-1] == kinds[-1] and set(seen) <= set(kinds), (
+            seen,
+            kinds,
+            shape_update.state_of(key_of(obj), "VIEWPORT").fault,
+        )
     return seen
 
 

@@ -13,18 +13,18 @@ from skinglow_blender.thickness import tile_attribute
 from skinglow_blender.thickness.tile_attribute import TEXEL_ATTRIBUTE, ensure_tiles, is_of_this_mesh, rows_of
 
 from inside.bad_input import refused
-from inside.scenes import add_light, black_material, camera_above, depsgraph, patch, render_settings
-from inside.tile_scenes import TILES_ONLY, fill, make_skins, render, without_updates
+from inside.scenes import add_light, black_material, camera_above, depsgraph, render_settings
+from inside.tile_scenes import TILES_ONLY, block, fill, make_skins, render, without_updates
 
 BOTH = GroupNodes(tiles=True)
 SURFACE = GroupNodes(Layout(256, 1, 0, False), tiles=True)
 
 
-def two_patches():
+def two_blocks():
     """Left and right halves of the picture, of one material; 1 unit is 1 mm."""
     add_light()
-    left = patch("Left", 2.0, (-1.0, 0.0, 0.0), black_material())
-    right = patch("Right", 2.0, (1.0, 0.0, 0.0), left.active_material)
+    left = block("Left", 2.0, (-1.0, 0.0, 0.0), black_material())
+    right = block("Right", 2.0, (1.0, 0.0, 0.0), left.active_material)
     camera_above(4.0)
     render_settings(16, 8)
     return left, right
@@ -36,7 +36,7 @@ def constant(value):
 
 def check_tiles_and_rows_in_one_material(work):
     """Each object shows what it is told to, by whatever else the group's nodes read."""
-    left, right = two_patches()
+    left, right = two_blocks()
     group = make_skins([left, right], GroupNodes())
     with without_updates():
         by_rows = render(work / "rows.exr")
@@ -65,7 +65,7 @@ def check_tiles_and_rows_in_one_material(work):
 
 def check_sockets(work):
     """Mask, Tint and Strength act on tiles as on rows, and so does the strength of the object."""
-    left, _right = two_patches()
+    left, _right = two_blocks()
     group = make_skins([left])
     node = next(n for n in left.active_material.node_tree.nodes if n.bl_idname == "ShaderNodeGroup")
     with without_updates():
@@ -79,7 +79,7 @@ def check_sockets(work):
 
 def check_dark_without_a_tile(work):
     """New faces have no texels, and faces between two tiles those of neither."""
-    left, _right = two_patches()
+    left, _right = two_blocks()
     group = make_skins([left])
     with without_updates():
         fill(group, [left], light=constant(0.25))
@@ -103,7 +103,7 @@ def check_dark_without_a_tile(work):
 
 def check_rows_of_tiles(_work):
     """Kept where nothing else needs them, apart for copies, and the images grow."""
-    left, right = two_patches()
+    left, right = two_blocks()
     group = make_skins([left, right])
     with without_updates():
         for obj in (left, right):
@@ -129,7 +129,7 @@ def check_rows_of_tiles(_work):
 
 def check_saved_and_removed(work):
     """Tiles are in a saved file; a removed skin leaves nothing."""
-    left, right = two_patches()
+    left, right = two_blocks()
     group = make_skins([left, right])
     with without_updates():
         for mode in ("VIEWPORT", "RENDER"):
@@ -150,7 +150,7 @@ def check_saved_and_removed(work):
 
 def check_deleted_image(work):
     """It is told, and made anew where tiles are placed the next time."""
-    left, _right = two_patches()
+    left, _right = two_blocks()
     group = make_skins([left])
     with without_updates():
         fill(group, [left], light=constant(0.25))
@@ -164,7 +164,7 @@ def check_deleted_image(work):
 
 def check_copied_group(work):
     """A group made a single user gets tile images of its own."""
-    left, right = two_patches()
+    left, right = two_blocks()
     group = make_skins([left, right])
     with without_updates():
         fill(group, [left, right], light=constant(0.25))
@@ -182,7 +182,7 @@ def check_copied_group(work):
 
 def check_linked_mesh(work):
     """The mesh of a library keeps the tiles that it was saved with; it cannot get any."""
-    left, right = two_patches()
+    left, right = two_blocks()
     make_skins([left, right])
     ensure_tiles(left, bpy.context.scene)
     bpy.ops.wm.save_as_mainfile(filepath=str(work / "library.blend"))

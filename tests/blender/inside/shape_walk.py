@@ -121,7 +121,7 @@ def compare_tiles(obj, graph):
     error, mean = differences(obj, graph, **more)
     # Of a turned body the last digits differ, by which single cells are in its flesh or not: these are large here.
     turned = any(obj.rotation_euler) or min(obj.scale) < 0.0
-    assert error <= (0.2 if turned else 1e-2) * mean, (obj.name, error, mean)
+    assert error <= (0.03 if turned else 1e-2) * mean, (obj.name, error, mean)
 
 
 def check_random_walk_through_the_shape(work):

@@ -11,7 +11,7 @@ from skinglow_blender.show.group_nodes import GroupNodes, build_nodes
 from skinglow_blender.show.tile_image import place_tiles, show_tiles, tile_atlas
 from skinglow_blender.thickness.tile_attribute import ensure_tiles, rows_of, texels_of
 
-from inside.scenes import depsgraph, read_exr
+from inside.scenes import depsgraph, patch, read_exr
 
 TILES_ONLY = GroupNodes(tiles=True, rows=False)
 #: Of the sine, per mm: light falls by a power of e in 2 to 4 mm of skin.
@@ -50,6 +50,17 @@ def ball(name, location=(0.0, 0.0, 0.0), mesh=None, material=None):
     obj = bpy.data.objects.new(name, mesh)
     bpy.context.scene.collection.objects.link(obj)
     obj.location = location
+    return obj
+
+
+def block(name, size, location, material):
+    """A square that looks up, as scenes.patch, on a closed body of 2 mm: light comes through bodies alone."""
+    obj = patch(name, size, location, material)
+    h, low = size / 2, -THICKNESS
+    top = [(-h, -h, 0), (h, -h, 0), (h, h, 0), (-h, h, 0)]
+    sides = [(i, 4 + i, 4 + (i + 1) % 4, (i + 1) % 4) for i in range(4)]
+    obj.data.clear_geometry()
+    obj.data.from_pydata([*top, *((x, y, low) for x, y, _z in top)], [], [(0, 1, 2, 3), (7, 6, 5, 4), *sides])
     return obj
 
 
