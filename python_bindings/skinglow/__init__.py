@@ -77,7 +77,7 @@ from skinglow._for_hosts import (
 from skinglow._lit_shape import LitShape
 from skinglow._occlusion import Occluders, VisibleFraction
 from skinglow._renamed import __getattr__ as __getattr__
-from skinglow._shape import Shape, ShapePart, in_thin_parts
+from skinglow._shape import Shape, ShapePart
 from skinglow._spectra import line_spectrum
 from skinglow._thickness import ThicknessReport, thickness, thickness_report
 from skinglow._thickness_map import (
@@ -89,6 +89,7 @@ from skinglow._thickness_map import (
     thickness_colors,
     thickness_summary,
 )
+from skinglow._thin_skin import near_thin_skin
 
 __all__ = [
     "__version__",
@@ -176,7 +177,7 @@ __all__ = [
     "LitShape",
     "Shape",
     "ShapePart",
-    "in_thin_parts",
+    "near_thin_skin",
     "ThicknessImage",
     "ThicknessReport",
     "ThicknessSummary",

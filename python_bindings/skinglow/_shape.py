@@ -13,7 +13,7 @@ from skinglow._lit_shape import LitShape
 from skinglow._occlusion import Occluders
 from skinglow._rays_loader import load_rays
 
-__all__ = ["Shape", "ShapePart", "in_thin_parts"]
+__all__ = ["Shape", "ShapePart"]
 
 
 DEFAULT_CELL_MM = 0.8
@@ -218,35 +218,3 @@ class Shape:
         result = cls.__new__(cls)
         result._shape = shape
         return result
-
-
-#: Skin that absorbs little and scatters much, 1/mm: light falls by exp(-5) through 25 mm of it, so that no skin has
-#: larger parts.
-_CLEAR_SKIN = {"absorption": (0.015,) * 3, "reduced_scattering": (0.8,) * 3}
-
-
-def in_thin_parts(
-    vertices: ArrayLike,
-    triangles: ArrayLike,
-    *,
-    unit_mm: float = 1.0,
-    max_thickness_mm: float = 25.0,
-    progress: Callable[[float], bool] | None = None,
-) -> NDArray[np.bool_]:
-    """At which vertices light may come through the shape of a body of skin, whatever its pigments: (v,).
-
-    Thin flesh and what is near it: also the thick floor of a fold, into which light falls from the thin wall beside
-    it. Arguments and errors as of Shape.
-    """
-    parts = Shape(
-        vertices,
-        triangles,
-        **_CLEAR_SKIN,
-        unit_mm=unit_mm,
-        max_thickness_mm=max_thickness_mm,
-        progress=progress,
-    ).parts
-    found = np.zeros(len(np.asarray(vertices)), bool)
-    for part in parts:
-        found[part.points] = True
-    return found

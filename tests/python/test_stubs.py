@@ -110,7 +110,7 @@ def test_package_exports_every_name_once() -> None:
         "thickness_report",
         "thickness_summary",
         "Occluders",
-        "in_thin_parts",
+        "near_thin_skin",
         "VisibleFraction",
         "LitShape",
         "Shape",

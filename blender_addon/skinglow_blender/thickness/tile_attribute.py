@@ -14,7 +14,7 @@ from ..read.measured_geometry import unit_mm
 from ..read.mesh_reading import triangles_of
 from ..read.shown_mesh import TEXEL_ATTRIBUTE
 from ..read.shown_mesh import corner_texels as texels_of
-from .thickness_attribute import SUMMARY, check_local
+from .thickness_attribute import SUMMARY, check_local, read
 
 __all__ = ["TEXEL_ATTRIBUTE", "ensure_tiles", "is_current", "is_of_this_mesh", "remove_tiles", "rows_of", "texels_of"]
 
@@ -38,15 +38,13 @@ def ensure_tiles(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
     sizes, corners = _faces(mesh)
     vertices = np.empty(3 * len(mesh.vertices), np.float32)
     mesh.vertices.foreach_get("co", vertices)
-    matrix, triangles = np.array(obj.matrix_world, np.float64)[:3, :3], triangles_of(mesh)
-    if obj.matrix_world.determinant() < 0.0:
-        triangles = triangles[:, ::-1]  # mirroring reverses the winding order
-    body, unit = vertices.reshape(-1, 3) @ matrix.T, unit_mm(obj, scene)
+    thickness, known = read(mesh)
+    body, unit = vertices.reshape(-1, 3) @ np.array(obj.matrix_world, np.float64)[:3, :3].T, unit_mm(obj, scene)
     made = core().FaceTiles(
         body,
         sizes,
         corners,
-        core().in_thin_parts(body, triangles, unit_mm=unit),
+        core().near_thin_skin(body, triangles_of(mesh), np.where(known, thickness, np.inf), unit_mm=unit),
         unit_mm=unit,
         spacing_mm=SPACING_MM,
     )
