@@ -27,8 +27,8 @@ import matplotlib.pyplot as plt  # noqa: E402  after selecting the backend
 PROJECT = STEPS.parents[1]
 #: Of the light, off the front towards the ear's side: from behind the head to beside it.
 AZIMUTHS = (190.0, 178.0, 166.0, 154.0, 140.0, 120.0)
-#: The brightest percent of the first frame's pixels may be clipped.
-EXPOSED_PERCENTILE = 99.0
+#: The brightest three percent of the first frame's pixels may be clipped.
+EXPOSED_PERCENTILE = 97.0
 
 
 def arguments() -> argparse.Namespace:

@@ -39,12 +39,18 @@ def ensure_tiles(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
     vertices = np.empty(3 * len(mesh.vertices), np.float32)
     mesh.vertices.foreach_get("co", vertices)
     thickness, known = read(mesh)
-    body, unit = vertices.reshape(-1, 3) @ np.array(obj.matrix_world, np.float64)[:3, :3].T, unit_mm(obj, scene)
+    body, unit, triangles = (
+        vertices.reshape(-1, 3) @ np.array(obj.matrix_world, np.float64)[:3, :3].T,
+        unit_mm(obj, scene),
+        triangles_of(mesh),
+    )
+    if obj.matrix_world.determinant() < 0.0:
+        triangles = triangles[:, ::-1]  # mirroring reverses the winding order
     made = core().FaceTiles(
         body,
         sizes,
         corners,
-        core().near_thin_skin(body, triangles_of(mesh), np.where(known, thickness, np.inf), unit_mm=unit),
+        core().near_thin_skin(body, triangles, np.where(known, thickness, np.inf), unit_mm=unit),
         unit_mm=unit,
         spacing_mm=SPACING_MM,
     )
