@@ -11,7 +11,7 @@ from functools import wraps
 from typing import Any
 
 from . import batch, bundled_core, farm, preferences, scene_settings, skin_settings
-from .batch import BatchResult, BatchStep, Rig, povray_command, povray_comparison
+from .batch import BatchResult, BatchStep, Rig, povray_comparison
 from .batch.povray_comparison import PovrayComparison
 from .commands import freezing, light_listing, povray_export, skin, thickness_map
 from .commands import health as skin_health
@@ -109,8 +109,7 @@ _PARTS = (
     main_panel,
     menus,
     handlers,
-    batch,
-    povray_command,
+    *batch.COMMANDS,
 )
 _registered = False
 
@@ -159,7 +158,7 @@ set_medium = _registering(skin.set_medium)
 state_of = _registering(skin.state_of)
 show_light_by = _registering(subsurface.show_light_by)
 render_batch = _registering(batch.render_batch)
-batch_main = _registering(batch.main)
+batch_main = _registering(batch.COMMANDS[0].main)
 farm.write_openjd = _registering(farm.write_openjd)
 compare_with_povray = _registering(povray_comparison.compare_with_povray)
-compare_with_povray_main = _registering(povray_command.main)
+compare_with_povray_main = _registering(batch.COMMANDS[1].main)

@@ -3,18 +3,17 @@
 
 import argparse
 import signal
-import sys
 import threading
 import traceback
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import NoReturn
 
 import bpy
 
 from ..commands.freezing import FOLDER, freeze
 from ..errors import SkinError, TemporaryError
+from .blender_command import BlenderCommand
 from .frames import parse_frames
 from .pictures import PATTERN
 from .progress import MANAGERS, Progress, say, why_failed
@@ -170,15 +169,6 @@ def _freeze(options: argparse.Namespace, out: str, scene: bpy.types.Scene, progr
         raise SkinError(f"--freeze: {' '.join(str(error).split())}") from error
 
 
-def main(arguments: Sequence[str] | None = None) -> NoReturn:
-    """Runs with the arguments after `--` on Blender's command line, and quits Blender with the exit code."""
-    if arguments is None:
-        arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
-    code = run(arguments)
-    sys.stdout.flush()
-    raise SystemExit(code)
-
-
 def _open(path: Path | None) -> None:
     if path is None:
         return
@@ -216,19 +206,4 @@ def _stopping_after_a_picture(progress: Progress) -> Iterator[None]:
             signal.signal(each, signal.SIG_DFL if handler is None else handler)
 
 
-_command = None
-
-
-def register() -> None:
-    """Registers `blender --command skinglow`, if Blender has such commands (4.2 and later)."""
-    global _command
-    if hasattr(bpy.utils, "register_cli_command"):
-        _command = bpy.utils.register_cli_command("skinglow", run)
-
-
-def unregister() -> None:
-    """Unregisters the command."""
-    global _command
-    if _command is not None:
-        bpy.utils.unregister_cli_command(_command)
-        _command = None
+COMMAND = BlenderCommand("skinglow", run)

@@ -2,14 +2,13 @@
 """The command line of comparisons with POV-Ray (docs/povray.md)."""
 
 import argparse
-import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NoReturn
 
 import bpy
 
 from ..errors import SkinError
+from .blender_command import BlenderCommand
 from .command import BAD_ARGUMENTS
 from .povray_comparison import MODES, compare_with_povray
 from .progress import say
@@ -67,28 +66,4 @@ def _skin(name: str | None) -> bpy.types.Object:
     )
 
 
-def main(arguments: Sequence[str] | None = None) -> NoReturn:
-    """Runs with the arguments after `--` on Blender's command line, and quits Blender with the exit code."""
-    if arguments is None:
-        arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
-    code = run(arguments)
-    sys.stdout.flush()
-    raise SystemExit(code)
-
-
-_command = None
-
-
-def register() -> None:
-    """Registers `blender --command skinglow_povray`, if Blender has such commands (4.2 and later)."""
-    global _command
-    if hasattr(bpy.utils, "register_cli_command"):
-        _command = bpy.utils.register_cli_command("skinglow_povray", run)
-
-
-def unregister() -> None:
-    """Unregisters the command."""
-    global _command
-    if _command is not None:
-        bpy.utils.unregister_cli_command(_command)
-        _command = None
+COMMAND = BlenderCommand("skinglow_povray", run)

@@ -44,6 +44,7 @@ from ..show.skin_group import new_group
 from ..show.skin_material import skin_nodes
 from ..show.tile_image import TILES, tiles_shown
 from ..table.occlusion import with_visible_fractions
+from .exr_writing import write_exr
 from .skin import skin_settings_of
 
 #: Where the folders go, one for each skin.
@@ -460,21 +461,8 @@ def _group_of_its_own(part: _Part) -> bpy.types.NodeTree:
 
 def _write_image(path: Path, pixels: np.ndarray) -> None:
     """Writes pixels (height, width, 4) as a float32 EXR by Blender's own writer, exactly; complete or not at all."""
-    height, width = pixels.shape[:2]
     partial = path.with_name(f".{path.name}.part.exr")
-    image = bpy.data.images.new(".Skinglow frozen", width, height, alpha=True, float_buffer=True)
-    try:
-        image.colorspace_settings.name = blender_version.data_color_space(image)
-        image.alpha_mode = "CHANNEL_PACKED"
-        image.pixels.foreach_set(pixels.ravel())
-        image.file_format = "OPEN_EXR"
-        image.filepath_raw = str(partial)
-        try:
-            image.save()
-        except RuntimeError as error:
-            raise SkinError(f"Cannot write {path}: {error}") from error
-        with partial.open("rb+") as file:
-            os.fsync(file.fileno())
-        os.replace(partial, path)
-    finally:
-        bpy.data.images.remove(image)
+    write_exr(partial, pixels)
+    with partial.open("rb+") as file:
+        os.fsync(file.fileno())
+    os.replace(partial, path)

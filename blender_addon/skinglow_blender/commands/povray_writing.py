@@ -10,11 +10,10 @@ from contextlib import contextmanager
 from errno import EISDIR
 from pathlib import Path
 
-import bpy
 import numpy as np
 
-from .. import blender_version
 from ..errors import SkinError, core
+from .exr_writing import write_exr
 
 #: What an earlier export may have left in a scene's folder.
 SCENE_FILE = re.compile(
@@ -113,21 +112,9 @@ def _earlier(directory: Path, folder: Path) -> list[Path]:
 
 def float_image(colors: np.ndarray, folder: Path) -> bytes:
     """Colors (height, width, 3) as a float32 EXR by Blender's own writer; exact."""
-    height, width = colors.shape[:2]
-    image = bpy.data.images.new(".Skinglow export", width, height, alpha=False, float_buffer=True)
     path = folder / ".lut.exr"
     try:
-        image.colorspace_settings.name = blender_version.data_color_space(image)
-        pixels = np.ones((height, width, 4), np.float32)
-        pixels[:, :, :3] = colors
-        image.pixels.foreach_set(pixels.ravel())
-        image.file_format = "OPEN_EXR"
-        image.filepath_raw = str(path)
-        try:
-            image.save()
-        except RuntimeError as error:
-            raise SkinError(f"Cannot write {path}: {error}") from error
+        write_exr(path, colors)
         return path.read_bytes()
     finally:
-        bpy.data.images.remove(image)
         path.unlink(missing_ok=True)

@@ -50,15 +50,15 @@ class Unfit(NamedTuple):
 
 
 APPLY = "apply them (Object > Apply > Visual Geometry to Mesh), then press Repair"
-NO_TILES = Unfit("the place of its faces in the tiles is not stored yet", "press Repair")
-EDITED = Unfit("its faces were edited after their place in the tiles was stored", "press Repair")
+NO_TILES = Unfit("its faces have no texels yet", "press Repair")
+EDITED = Unfit("its faces were edited after they were given texels", "press Repair")
 LINKED = Unfit(
     "its mesh is linked from a library, where it has no tiles",
     "make the skin in that file, or make object and data local",
 )
 ALL_THICK = Unfit("it is so thick everywhere that no light comes through", "look whether Unit is right")
 EDIT_MODE = Unfit("it is in Edit Mode", "leave it (Tab)")
-OVERLAPPING = Unfit("its modifiers show the same faces at several places, as Mirror and Array do", APPLY)
+OVERLAPPING = Unfit("its modifiers show the same faces more than once, as Mirror and Array do", APPLY)
 NO_NODES = Unfit(
     "its material has no nodes for that, and nodes cannot be added to a library's material nor while rendering",
     "make the material local, or update before rendering",

@@ -275,11 +275,11 @@ def check_command(work):
 
 def check_command_is_registered_where_blender_has_commands(work):
     if not hasattr(bpy.utils, "register_cli_command"):
-        assert bpy.app.version < (4, 2, 0) and command._command is None
+        assert bpy.app.version < (4, 2, 0) and not command.COMMAND.is_registered
         return
     sb.register()
-    assert command._command is not None
+    assert command.COMMAND.is_registered
     sb.unregister()
-    assert command._command is None
+    assert not command.COMMAND.is_registered
     sb.register()
-    assert command._command is not None
+    assert command.COMMAND.is_registered

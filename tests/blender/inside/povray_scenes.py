@@ -7,6 +7,7 @@ from importlib.util import find_spec
 import bpy
 import numpy as np
 import skinglow_blender as sb
+from skinglow_blender.batch import povray_command
 from skinglow_blender.commands import povray_run
 from skinglow_blender.show.skin_material import skin_node
 
@@ -135,6 +136,27 @@ def check_comparison(work):
     assert read["comparisons"] == list(done.entries)
     assert (work / "compared" / "report.html").read_text().count("<img") == 4
     return {f"{entry['mode']}, {entry['light']}": entry["rms"] for entry in done.entries}
+
+
+def check_command_line_and_button(work):
+    """As `blender --command skinglow_povray` and the menu call it: exit codes, and a report."""
+    add_light("Key", location=(0.5, 0.0, 2.0))
+    obj = suzanne()
+    sb.make_skin(obj, unit_mm=2.0, strength=10.0)
+    camera_above(3.0)
+    render_settings(48, 48)
+    options = ["--out", str(work / "command"), "--modes", "existing", "--all-lights"]
+    assert povray_command.run(options) == 0
+    assert povray_command.run([*options, "--skin", obj.name]) == 0
+    (entry,) = json.loads((work / "command" / "report.json").read_text())["comparisons"]
+    assert entry["within"] and entry["mode"] == "existing", entry
+    for wrong in (["--skin", "Nobody"], ["--modes", "none"], ["--blend", str(work / "none.blend")], ["--nonsense"]):
+        assert povray_command.run(["--out", str(work / "never"), *wrong]) == 2
+    assert not (work / "never").exists()
+    obj.select_set(True)
+    bpy.context.view_layer.objects.active = obj
+    assert bpy.ops.skinglow.compare_povray(directory=str(work / "button"), per_light=False) == {"FINISHED"}
+    assert len(json.loads((work / "button" / "report.json").read_text())["comparisons"]) > 1
 
 
 def check_povray_not_there_and_its_messages(work):
