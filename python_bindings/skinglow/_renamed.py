@@ -19,7 +19,7 @@ RENAMED = {
 
 REMOVED = {
     "base_lut_by_plan": "reference_lut takes streams, and solves every thickness and wavelength",
-    "diffusion_transmittance": "transmittance solves it properly; scripts/accuracy_steps/diffusion.py has the formula",
+    "diffusion_transmittance": "transmittance solves it properly; studies/accuracy/diffusion.py has the formula",
 }
 
 

@@ -1,7 +1,7 @@
 """What a task of a farm costs beside its pictures: starting Blender, the add-on, opening the file, checking inputs.
 
 Usage: batch_start.py SCENE.blend COMMAND...      such as: batch_start.py head.blend blender -b -y
-COMMAND is Blender with the add-on, or a Python with bpy and scripts/example_steps/batch_in_wheel.py. Prints processor
+COMMAND is Blender with the add-on, or a Python with bpy and studies/batch/in_wheel.py. Prints processor
 seconds of a task whose ten pictures are all there, the best of seven runs, and the frames a task needs for 5 %.
 """
 

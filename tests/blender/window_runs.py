@@ -10,7 +10,6 @@ import matplotlib.image
 import numpy as np
 from hosts import ADDON_FOLDER, HERE, host_named
 
-PICTURES = HERE.parents[1] / "scripts" / "panel_pictures"
 #: Seconds for a whole run; software OpenGL on a busy machine is slow.
 SECONDS = 540
 
@@ -47,7 +46,7 @@ def run_in_window(steps: str, folder: Path, *arguments: str) -> Window:
     command = ["xvfb-run", "-a", "-s", "-screen 0 1200x800x24", host.path, "--factory-startup"]
     command += ["--enable-event-simulate", "--window-geometry", "0", "0", "1200", "800"]
     command += ["-P", str(HERE / "window" / f"{steps}.py"), "--", str(folder / "facts.jsonl"), *arguments]
-    command += [str(PICTURES), str(ADDON_FOLDER), os.environ.get("SKINGLOW_SITE_311", "")]
+    command += [str(ADDON_FOLDER), os.environ.get("SKINGLOW_SITE_311", "")]
     log = folder / "output.txt"
     with log.open("w") as output:
         # What ends it after that time ends Xvfb too.

@@ -8,6 +8,7 @@ import os
 import random
 import signal
 import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -49,8 +50,8 @@ bpy.ops.wm.save_as_mainfile(filepath=bpy.path.abspath("//frozen.blend"))
 def farm(tmp_path_factory: pytest.TempPathFactory) -> FarmProgram:
     program = FarmProgram(tmp_path_factory.mktemp("farm"))
     scene = program.folder / "scene.blend"
-    make = [program.blender, "-b", "-P", str(PROJECT / "scripts/example_steps/batch_scene.py"), "--", str(scene)]
-    done = subprocess.run(make, env=program.environment, capture_output=True, text=True, timeout=SECONDS)
+    make = [sys.executable, "-m", "studies", "batch", "--scene", "--out", program.folder, "--blender", program.blender]
+    done = subprocess.run(make, cwd=PROJECT, env=program.environment, capture_output=True, text=True, timeout=SECONDS)
     assert scene.exists(), done.stdout + done.stderr
     program.python(SMALL, str(scene))
     return program

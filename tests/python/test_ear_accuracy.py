@@ -1,26 +1,20 @@
-"""The arithmetic of scripts/accuracy_ear: errors against a noisy reference, costs, and the medium for Cycles."""
-
-import sys
-from pathlib import Path
+"""The arithmetic of the study `ear`: errors against a noisy reference, costs, and the medium for Cycles."""
 
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "ear_steps"))
-
-import medium  # noqa: E402
-import picture_error  # noqa: E402
+from studies import errors, medium
 
 
 def noisy_reference(truth, noise, seed=1):
     random = np.random.default_rng(seed)
-    return picture_error.Reference(*(truth * (1.0 + noise * random.standard_normal(truth.shape)) for _ in range(2)))
+    return errors.Reference(*(truth * (1.0 + noise * random.standard_normal(truth.shape)) for _ in range(2)))
 
 
 def test_the_references_noise_drops_out_of_the_error():
     truth = np.random.default_rng(0).uniform(0.5, 1.5, (40000, 3))
     picture = truth * 1.1
-    exact = picture_error.Reference(truth, truth).error(picture).rms
+    exact = errors.Reference(truth, truth).error(picture).rms
     error = noisy_reference(truth, noise=0.5).error(picture)
     assert exact == pytest.approx(0.1 * np.sqrt((truth**2).mean()) / truth.mean())
     # Without the second seed it would be five times as much.
@@ -36,14 +30,14 @@ def test_a_picture_without_error_has_none():
 
 def test_the_best_strength_undoes_a_factor():
     truth = np.random.default_rng(0).uniform(0.5, 1.5, (1000, 3))
-    reference = picture_error.Reference(truth, truth)
+    reference = errors.Reference(truth, truth)
     assert reference.best_factor(0.2 * truth) == pytest.approx(5.0)
     assert reference.error_at_best(0.2 * truth).rms == pytest.approx(0.0, abs=1e-12)
 
 
 def test_a_walks_cost_is_found_from_its_renders():
     samples = np.array([4, 16, 64, 256])
-    cost = picture_error.walk_cost(samples, 0.25 + 0.02 * samples, 3.0 / np.sqrt(samples))
+    cost = errors.walk_cost(samples, 0.25 + 0.02 * samples, 3.0 / np.sqrt(samples))
     assert cost.fixed == pytest.approx(0.25)
     assert cost.each == pytest.approx(0.02)
     assert cost.seconds_to(0.3) == pytest.approx(0.25 + 0.02 * 100)
@@ -53,7 +47,7 @@ def test_a_walks_cost_is_found_from_its_renders():
 def test_a_table_fitted_to_the_reference_is_its_mean_at_each_thickness():
     thickness = np.repeat([1.1, 2.1, 3.1], 50)
     truth = np.repeat([[3.0, 1.0, 0.2], [2.0, 0.5, 0.1], [1.0, 0.2, 0.0]], 50, axis=0)
-    fitted = picture_error.fitted_by_thickness(thickness, picture_error.Reference(truth * 0.9, truth * 1.1))
+    fitted = errors.fitted_by_thickness(thickness, errors.Reference(truth * 0.9, truth * 1.1))
     np.testing.assert_allclose(fitted, truth)
 
 

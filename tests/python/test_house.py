@@ -1,15 +1,14 @@
 """The rules of the C++ core's layout: floors, public headers, the length of files, the picture of it all."""
 
 import re
-import sys
 from pathlib import Path
 
 import pytest
 
+from studies.architecture import includes
+
 ROOT = Path(__file__).parents[2]
 CORE = ROOT / "core"
-sys.path.insert(0, str(ROOT / "scripts" / "architecture_steps"))
-import includes  # noqa: E402
 
 FLOORS = includes.floors(CORE)
 HEADERS = sorted(path.name for path in (CORE / "include" / "skinglow").iterdir())
@@ -69,7 +68,7 @@ def test_no_file_is_long() -> None:
 
 def test_picture_of_the_architecture_is_up_to_date() -> None:
     picture = (ROOT / "docs" / "images" / "architecture.svg").read_text()
-    assert includes.arrows_text(CORE).replace(">", "&gt;") in picture, "run scripts/architecture"
+    assert includes.arrows_text(CORE).replace(">", "&gt;") in picture, "run python -m studies architecture"
 
 
 ADDON = ROOT / "blender_addon" / "skinglow_blender"

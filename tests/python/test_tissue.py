@@ -2,7 +2,6 @@
 
 import sys
 import threading
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,8 +9,7 @@ import skinglow as sg
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "accuracy_steps"))
-import diffusion  # noqa: E402
+from studies.accuracy import diffusion
 
 WHITE = np.ones(3)
 

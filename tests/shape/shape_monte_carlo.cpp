@@ -1,4 +1,4 @@
-// shape_monte_carlo INPUT OUTPUT: exitance of a lit body by brute force, for scripts/shape_steps, where
+// shape_monte_carlo INPUT OUTPUT: exitance of a lit body by brute force, for studies/monte_carlo.py, where
 // reference.py writes INPUT and reads OUTPUT. Little-endian, without padding:
 // INPUT   int64 vertices, triangles, channels, targets, photons per channel, seed, threads; for each
 //         channel double absorption, scattering (1/mm), anisotropy, refractive index, rough (0 or 1);

@@ -1,14 +1,15 @@
 """Runs in a Blender with a window: what people do with the panel, by real clicks and keys; facts as JSON lines.
 
-Arguments after "--": the file of facts, the picture; the folders of scripts/panel_pictures, the add-on and the core.
+Arguments after "--": the file of facts, the picture; the folders of the add-on and the core.
 """
 
 import json
 import sys
 import time
+from pathlib import Path
 
-facts_file, picture, pictures_folder, addon_folder, core_folder = sys.argv[sys.argv.index("--") + 1 :]
-sys.path[:0] = [pictures_folder, addon_folder]
+facts_file, picture, addon_folder, core_folder = sys.argv[sys.argv.index("--") + 1 :]
+sys.path[:0] = [str(Path(__file__).parent), addon_folder]
 sys.path.append(core_folder)
 
 import bpy  # noqa: E402

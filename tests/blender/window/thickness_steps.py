@@ -1,14 +1,14 @@
 """Runs in a Blender with a window: thickness in the panel and over the skin; facts as JSON lines, and pictures.
 
-Arguments after "--": the file of facts; the folders of scripts/panel_pictures, the add-on and the core.
+Arguments after "--": the file of facts; the folders of the add-on and the core.
 """
 
 import json
 import sys
 from pathlib import Path
 
-facts_file, pictures_folder, addon_folder, core_folder = sys.argv[sys.argv.index("--") + 1 :]
-sys.path[:0] = [pictures_folder, addon_folder]
+facts_file, addon_folder, core_folder = sys.argv[sys.argv.index("--") + 1 :]
+sys.path[:0] = [str(Path(__file__).parent), addon_folder]
 sys.path.append(core_folder)
 
 import bpy  # noqa: E402

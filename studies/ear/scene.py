@@ -1,0 +1,127 @@
+"""Runs inside Blender: the ear, the light behind it, and the core's results at every vertex."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+import numpy as np
+import skinglow as sg
+from mathutils import Vector
+
+from studies import rendering
+from studies import scenes as stage
+
+CAMERA_AZIMUTH_DEGREES = 25.0
+LIGHT_AZIMUTH_DEGREES = 170.0  # behind the ear and slightly to its side, so that the skull does not occlude the light
+LIGHT_DISTANCE_M = 0.35
+LIGHT_COLOR = (1.0, 0.62, 0.35)  # warm
+LIGHT_POWER_W = 20.0
+# Far sides that see less of the sky are in the mouth and eye sockets: the add-on's default.
+MIN_SKY_VISIBILITY = 0.1
+# The ear is the thin skin near the outermost point of the head.
+THIN_MM, NEAR_M = 8.0, 0.05
+FACTS, FAR_SIDE = "ear_facts", "ear_far_side"
+THICKNESS_OPEN, FAR_SIDE_OPEN = "ear_thickness_open", "ear_far_side_open"
+
+
+@dataclass
+class Ear:
+    scene: bpy.types.Scene
+    head: bpy.types.Object
+    light: sg.Light
+    reference_point: tuple[float, float, float]  # the add-on's default: center of the bounding box
+    cpu_seconds: dict[str, float]  # once per mesh, and per change of the lights
+
+
+@dataclass
+class _Skin:
+    """Points (n, 3), meters; normals (n, 3); triangles (m, 3); thickness (n,), mm, after it is measured."""
+
+    points: np.ndarray
+    normals: np.ndarray
+    triangles: np.ndarray
+    thickness: np.ndarray
+
+    def measured(self, min_sky_visibility: float) -> np.ndarray:
+        return sg.thickness(
+            self.points, self.triangles, unit_mm=rendering.MM_PER_METER, min_sky_visibility=min_sky_visibility
+        )
+
+    def far_side(self, light: sg.Light, thickness: np.ndarray) -> np.ndarray:
+        return sg.far_side_irradiance([light], self.points, self.normals, thickness / rendering.MM_PER_METER)
+
+
+def build(job: dict[str, Any]) -> Ear:
+    """The scene of the job's head, with a single light and nothing else."""
+    scene = stage.empty_scene()
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
+    rendering.linear_render(scene, job["size"])
+    head = stage.load_head(job)
+    cpu = {}
+    skin = _read(head.data)
+    skin.thickness, cpu["thickness"] = rendering.timed(lambda: skin.measured(MIN_SKY_VISIBILITY))
+    open_thickness = skin.measured(0.0)
+    center, radius = _find_ear(skin, np.array(stage.views_of(head)["_ear"][0]))
+    camera = stage.aim_camera(scene, Vector(center), 2.2 * radius, math.radians(CAMERA_AZIMUTH_DEGREES))
+    light_position = _add_light(scene, Vector(center))
+    light = sg.Light("POINT", LIGHT_COLOR, light_position, power=LIGHT_POWER_W, name="light")
+
+    far_side, cpu["far_side"] = rendering.timed(lambda: skin.far_side(light, skin.thickness))
+    back_lit = _cosine(skin, light_position) < 0.0
+    inside = np.linalg.norm(skin.points - center, axis=1) < radius
+    # Colors must not be negative, but cosines can be.
+    facts = [skin.thickness, np.maximum(_cosine(skin, camera.location), 0.0), back_lit & inside]
+    _store(head.data, rendering.THICKNESS, skin.thickness)
+    _store(head.data, THICKNESS_OPEN, open_thickness)
+    _store_color(head.data, FACTS, np.column_stack(facts))
+    _store_color(head.data, FAR_SIDE, far_side)
+    _store_color(head.data, FAR_SIDE_OPEN, skin.far_side(light, open_thickness))
+    return Ear(scene, head, light, tuple(stage.center_of(head)), cpu)
+
+
+def _read(mesh: bpy.types.Mesh) -> _Skin:
+    count = len(mesh.vertices)
+    points, normals = np.empty((count, 3), np.float32), np.empty((count, 3), np.float32)
+    mesh.vertices.foreach_get("co", points.ravel())
+    mesh.vertex_normals.foreach_get("vector", normals.ravel())
+    mesh.calc_loop_triangles()
+    triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
+    mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
+    return _Skin(points.astype(np.float64), normals.astype(np.float64), triangles, np.zeros(count))
+
+
+def _find_ear(skin: _Skin, outermost: np.ndarray) -> tuple[np.ndarray, float]:
+    """A bounding sphere (center and radius in meters) of the thin skin near the outermost point of the head."""
+    near = np.linalg.norm(skin.points - outermost, axis=1) < NEAR_M
+    thin = skin.points[near & (skin.thickness < THIN_MM)]
+    if not len(thin):
+        raise SystemExit(f"no skin under {THIN_MM:g} mm within {NEAR_M:g} m of the head's side; is the unit right?")
+    center = 0.5 * (thin.min(axis=0) + thin.max(axis=0))
+    return center, float(np.linalg.norm(thin - center, axis=1).max())
+
+
+def _add_light(scene: bpy.types.Scene, ear: Vector) -> tuple[float, float, float]:
+    azimuth = math.radians(LIGHT_AZIMUTH_DEGREES)
+    data = bpy.data.lights.new("light", "POINT")
+    data.color, data.energy, data.shadow_soft_size = LIGHT_COLOR, LIGHT_POWER_W, 0.0
+    light = bpy.data.objects.new("light", data)
+    light.location = ear + LIGHT_DISTANCE_M * Vector((math.sin(azimuth), -math.cos(azimuth), 0.0))
+    scene.collection.objects.link(light)
+    return tuple(light.location)
+
+
+def _cosine(skin: _Skin, point: Any) -> np.ndarray:  # noqa: ANN401  any triple
+    offset = np.array(point) - skin.points
+    return np.einsum("ij,ij->i", offset, skin.normals) / np.linalg.norm(offset, axis=1)
+
+
+def _store(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
+    mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values.astype(np.float32))
+
+
+def _store_color(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
+    attribute = mesh.attributes.new(name, "FLOAT_COLOR", "POINT")
+    attribute.data.foreach_set("color", np.column_stack([values, np.ones(len(values))]).astype(np.float32).ravel())
