@@ -22,6 +22,7 @@ STUDIES = {
     "demo": Study("a head lit from behind in Blender and POV-Ray: out/index.html", ("package", "blender", "povray")),
     "accuracy": Study("errors and times of the skin optics: docs/accuracy.md; three minutes"),
     "ear": Study("a back-lit ear by every table against random walk: docs/accuracy.md", ("package", "blender")),
+    "ladder": Study("an ear by every method, error against run time: docs/accuracy.md", ("package", "blender")),
     "shape": Study("light through the shape against Monte Carlo: docs/shape.md", ("package", "blender")),
     "batch": Study("the example of docs/batch.md: frames x light rigs", ("package", "blender")),
     "panel": Study("the pictures of the panel in docs/blender.md", ("package",)),

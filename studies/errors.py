@@ -51,6 +51,10 @@ class Reference:
         """Residual noise of the mean of both seeds, in the same unit."""
         return float(0.5 * np.sqrt(((self.first - self.second) ** 2).mean()) / self.mean.mean())
 
+    def best_factor_to(self, other: Reference) -> float:
+        """The factor that brings this reference, as a picture, nearest to another."""
+        return float((self.mean * other.mean).sum() / (self.first * self.second).sum())
+
     def best_factor(self, picture: np.ndarray) -> float:
         """The strength that minimizes the error."""
         return float((picture * self.mean).sum() / (picture * picture).sum())

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import resource
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar
 
 import bpy
 import numpy as np
-import skinglow as sg
 
 from studies.medium import Medium
+from studies.timing import timed
 
-Result = TypeVar("Result")
 MM_PER_METER = 1000.0
-THICKNESS = "skinglow_thickness"
 
 
 @dataclass
@@ -25,14 +20,6 @@ class Picture:
 
     pixels: np.ndarray
     cpu_seconds: float  # of the render call
-
-
-def timed(function: Callable[[], Result]) -> tuple[Result, float]:
-    """The result of a function and its CPU seconds: user and system, all threads, less affected by other work."""
-    before = resource.getrusage(resource.RUSAGE_SELF)
-    result = function()
-    after = resource.getrusage(resource.RUSAGE_SELF)
-    return result, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def linear_render(scene: bpy.types.Scene, size: int) -> None:
@@ -56,7 +43,7 @@ def render(scene: bpy.types.Scene, samples: int, seed: int, folder: Path) -> Pic
     scene.cycles.samples, scene.cycles.seed = samples, seed
     path = folder / "render.exr"
     scene.render.filepath = str(path)
-    _, cpu = timed(lambda: bpy.ops.render.render(write_still=True))
+    _, cpu = timed(bpy.ops.render.render, write_still=True)
     image = bpy.data.images.load(str(path))
     width, height = image.size
     pixels = np.empty(width * height * 4, np.float32)
@@ -91,7 +78,8 @@ def random_walk(medium: Medium) -> bpy.types.Material:
     node.inputs["Radius"].default_value = radius_m
     node.inputs["Scale"].default_value = 1.0
     node.inputs["IOR"].default_value = 1.0
-    node.inputs["Roughness"].default_value = 0.0
+    if "Roughness" in node.inputs:  # since Blender 4.0
+        node.inputs["Roughness"].default_value = 0.0
     node.inputs["Anisotropy"].default_value = 0.0
     tree.links.new(node.outputs[0], surface)
     return material
@@ -112,56 +100,33 @@ def shown_attribute(name: str) -> bpy.types.Material:
     return material
 
 
-def _lookup(tree: bpy.types.NodeTree, table: np.ndarray, coordinate: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
-    image = bpy.data.images.new("lookup", len(table), 1, float_buffer=True)
-    image.colorspace_settings.is_data = True  # before writing: setting it clears the pixels
-    image.pixels.foreach_set(np.column_stack([table, np.ones(len(table))]).astype(np.float32).ravel())
-    node = tree.nodes.new("ShaderNodeTexImage")
-    node.image, node.extension, node.interpolation = image, "EXTEND", "Linear"
-    tree.links.new(coordinate, node.inputs["Vector"])
-    return node.outputs["Color"]
-
-
-def lookup_skin(
-    name: str,
-    tables: list[np.ndarray],
-    max_thickness_mm: float,
-    weight: str | None,
-    strength: float,
-    thickness: str = THICKNESS,
-) -> bpy.types.Material:
-    """A black surface that emits the transmitted light.
-
-    tables  one (n, 3) lookup over thickness; or three, the columns of M(d), for the channels of the attribute `weight`
-    """
-    material, tree, surface = _empty(name)
-    # Otherwise Cycles may sample every triangle as a light, which costs more than the picture itself.
-    material.cycles.emission_sampling = "NONE"
-    scale, offset = sg.BaseLut(tables[0][:, 0], max_thickness_mm).texel_mapping
-    u = tree.nodes.new("ShaderNodeMath")
-    u.operation = "MULTIPLY_ADD"
-    u.inputs[1].default_value, u.inputs[2].default_value = scale, offset
-    tree.links.new(_attribute(tree, thickness).outputs["Fac"], u.inputs[0])
-    coordinate = tree.nodes.new("ShaderNodeCombineXYZ")
-    coordinate.inputs["Y"].default_value = 0.5
-    tree.links.new(u.outputs[0], coordinate.inputs["X"])
-    light = _lookup(tree, tables[0], coordinate.outputs[0])
-    if weight is not None:
-        split = tree.nodes.new("ShaderNodeSeparateXYZ")
-        tree.links.new(_attribute(tree, weight).outputs["Vector"], split.inputs[0])
-        light = None
-        for table, channel in zip(tables, split.outputs, strict=True):
-            add = tree.nodes.new("ShaderNodeVectorMath")
-            add.operation = "MULTIPLY_ADD"
-            tree.links.new(_lookup(tree, table, coordinate.outputs[0]), add.inputs[0])
-            tree.links.new(channel, add.inputs[1])
-            if light is None:
-                add.inputs[2].default_value = (0.0, 0.0, 0.0)
-            else:
-                tree.links.new(light, add.inputs[2])
-            light = add.outputs[0]
+def black() -> bpy.types.Material:
+    """A surface that sends nothing back: what the add-on adds to it is all that is seen."""
+    material, tree, surface = _empty("black")
     emission = tree.nodes.new("ShaderNodeEmission")
-    emission.inputs["Strength"].default_value = strength
-    tree.links.new(light, emission.inputs["Color"])
+    emission.inputs["Strength"].default_value = 0.0
     tree.links.new(emission.outputs[0], surface)
     return material
+
+
+def store_color(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
+    """Values (vertices, 3) as a color attribute."""
+    attribute = mesh.attributes.new(name, "FLOAT_COLOR", "POINT")
+    attribute.data.foreach_set("color", np.column_stack([values, np.ones(len(values))]).astype(np.float32).ravel())
+
+
+def use_eevee(scene: bpy.types.Scene, samples: int) -> None:
+    is_next = (4, 2, 0) <= bpy.app.version < (5, 0, 0)
+    scene.render.engine = "BLENDER_EEVEE_NEXT" if is_next else "BLENDER_EEVEE"
+    scene.eevee.taa_render_samples = samples
+
+
+def sharpen_shadows(scene: bpy.types.Scene, light: bpy.types.Light) -> None:
+    """The shadow maps of EEVEE before Blender 4.2 let light through what is as thin as an ear."""
+    if not hasattr(scene.eevee, "shadow_cube_size"):
+        return
+    scene.eevee.use_soft_shadows = scene.eevee.use_shadow_high_bitdepth = True
+    scene.eevee.shadow_cube_size = "4096"
+    light.shadow_buffer_clip_start, light.shadow_buffer_bias = 0.02, 0.01
+    light.use_contact_shadow = True
+    light.contact_shadow_distance, light.contact_shadow_bias, light.contact_shadow_thickness = 0.04, 0.0005, 0.01

@@ -5,15 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import bpy
 import numpy as np
-import skinglow as sg
+import skinglow_blender as sb
 
-from studies import rendering
+from studies import rendering, skins
 from studies.ear import scene, slab_check
 from studies.in_blender import Steps
 from studies.medium import SKIN1
+from studies.timing import timed
 
-TABLE_SIZE, MAX_THICKNESS_MM = 256, 12.0  # the add-on's defaults
 LOOKUP_SAMPLES = 16
 # The min of several renders: a lookup is so fast that one-time loading would dominate the first.
 REPEATS = 3
@@ -21,26 +22,14 @@ BOUNCES = 4
 REFERENCE_SEEDS, WALK_SEED, EQUAL_TIME_SEED = (1, 2), 3, 4
 
 
-def lookup_materials(ear: scene.Ear) -> dict[str, Any]:
-    """The lookup methods, as shown by the modes of the add-on (docs/method.md)."""
-    weight = sg.PAPER_BLOOD_WEIGHT + sg.light_weight([ear.light], ear.reference_point)
-    base = SKIN1.base_lut(TABLE_SIZE, MAX_THICKNESS_MM)
-    object_weight = sg.object_irradiance([ear.light], ear.reference_point)
-    existing = sg.six_gaussian_lookup(TABLE_SIZE, MAX_THICKNESS_MM)
-    paper = sg.recolor(sg.six_gaussian_base(TABLE_SIZE, MAX_THICKNESS_MM), weight)
-    one_weight = sg.recolor(base, object_weight)
-    columns = [base.matrices[:, :, j] for j in range(3)]
-    diffuse = 1.0 / np.pi  # physical: irradiance in, diffuse radiance out
-    return {
-        "existing": rendering.lookup_skin("existing", [existing], MAX_THICKNESS_MM, None, 1.0),
-        "paper": rendering.lookup_skin("paper", [paper], MAX_THICKNESS_MM, None, 1.0),
-        "object": rendering.lookup_skin("object", [one_weight], MAX_THICKNESS_MM, None, diffuse),
-        "surface": rendering.lookup_skin("surface", columns, MAX_THICKNESS_MM, scene.FAR_SIDE, diffuse),
-        # Not a mode: the same with another definition of thickness, to measure its effect.
-        "surface_open": rendering.lookup_skin(
-            "surface_open", columns, MAX_THICKNESS_MM, scene.FAR_SIDE_OPEN, diffuse, scene.THICKNESS_OPEN
-        ),
-    }
+#: Settings of make_skin by method. The last is no mode: another definition of thickness, to measure its effect.
+SKINS: dict[str, dict[str, Any]] = {
+    "existing": {"mode": "existing"},
+    "paper": {"mode": "paper"},
+    "object": {"mode": "physical", "weights": "object"},
+    "surface": {"mode": "physical", "weights": "surface"},
+    "surface_open": {"mode": "physical", "weights": "surface"},
+}
 
 
 def main(job: dict[str, Any]) -> dict[str, Any]:
@@ -64,11 +53,18 @@ def main(job: dict[str, Any]) -> dict[str, Any]:
         rendering.assign_material(ear.head, rendering.shown_attribute(name))
         render(name, LOOKUP_SAMPLES)
     step("the lookups")
-    materials, ear.cpu_seconds["tables"] = rendering.timed(lambda: lookup_materials(ear))
-    for name, material in materials.items():
-        rendering.assign_material(ear.head, material)
-        for _ in range(REPEATS):
-            render(name, LOOKUP_SAMPLES)
+    core: dict[str, float] = {}
+    with skins.tables_of(SKIN1):
+        for name, settings in SKINS.items():
+            thickness = ear.thickness_open if name == "surface_open" else None
+            _, made = timed(skins.make, ear.head, SKIN1, thickness=thickness, **settings)
+            core.setdefault("thickness", made)
+            for _ in range(REPEATS):
+                render(name, LOOKUP_SAMPLES)
+            if name == "surface":
+                bpy.data.lights["light"].energy *= 1.0 + 1e-6
+                _, core["update"] = timed(skins.update, ear.head)
+        sb.remove_skin(ear.head)
 
     rendering.assign_material(ear.head, rendering.random_walk(SKIN1))
     for samples in counts:
@@ -92,8 +88,7 @@ def main(job: dict[str, Any]) -> dict[str, Any]:
         "blender": job["host"],
         "slab": slab,
         "seconds": seconds,
-        "core_seconds": ear.cpu_seconds,
+        "core_seconds": core,
         "equal_time_samples": equal,
         "vertices": len(ear.head.data.vertices),
-        "reference_point": ear.reference_point,
     }

@@ -24,7 +24,6 @@ MIN_SKY_VISIBILITY = 0.1
 # The ear is the thin skin near the outermost point of the head.
 THIN_MM, NEAR_M = 8.0, 0.05
 FACTS, FAR_SIDE = "ear_facts", "ear_far_side"
-THICKNESS_OPEN, FAR_SIDE_OPEN = "ear_thickness_open", "ear_far_side_open"
 
 
 @dataclass
@@ -32,8 +31,7 @@ class Ear:
     scene: bpy.types.Scene
     head: bpy.types.Object
     light: sg.Light
-    reference_point: tuple[float, float, float]  # the add-on's default: center of the bounding box
-    cpu_seconds: dict[str, float]  # once per mesh, and per change of the lights
+    thickness_open: np.ndarray  # mm, by vertex, to any far side, however dark
 
 
 @dataclass
@@ -60,26 +58,20 @@ def build(job: dict[str, Any]) -> Ear:
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
     rendering.linear_render(scene, job["size"])
     head = stage.load_head(job)
-    cpu = {}
     skin = _read(head.data)
-    skin.thickness, cpu["thickness"] = rendering.timed(lambda: skin.measured(MIN_SKY_VISIBILITY))
-    open_thickness = skin.measured(0.0)
+    skin.thickness = skin.measured(MIN_SKY_VISIBILITY)
     center, radius = _find_ear(skin, np.array(stage.views_of(head)["_ear"][0]))
     camera = stage.aim_camera(scene, Vector(center), 2.2 * radius, math.radians(CAMERA_AZIMUTH_DEGREES))
     light_position = _add_light(scene, Vector(center))
     light = sg.Light("POINT", LIGHT_COLOR, light_position, power=LIGHT_POWER_W, name="light")
 
-    far_side, cpu["far_side"] = rendering.timed(lambda: skin.far_side(light, skin.thickness))
     back_lit = _cosine(skin, light_position) < 0.0
     inside = np.linalg.norm(skin.points - center, axis=1) < radius
     # Colors must not be negative, but cosines can be.
     facts = [skin.thickness, np.maximum(_cosine(skin, camera.location), 0.0), back_lit & inside]
-    _store(head.data, rendering.THICKNESS, skin.thickness)
-    _store(head.data, THICKNESS_OPEN, open_thickness)
-    _store_color(head.data, FACTS, np.column_stack(facts))
-    _store_color(head.data, FAR_SIDE, far_side)
-    _store_color(head.data, FAR_SIDE_OPEN, skin.far_side(light, open_thickness))
-    return Ear(scene, head, light, tuple(stage.center_of(head)), cpu)
+    rendering.store_color(head.data, FACTS, np.column_stack(facts))
+    rendering.store_color(head.data, FAR_SIDE, skin.far_side(light, skin.thickness))
+    return Ear(scene, head, light, skin.measured(0.0))
 
 
 def _read(mesh: bpy.types.Mesh) -> _Skin:
@@ -120,8 +112,3 @@ def _cosine(skin: _Skin, point: Any) -> np.ndarray:  # noqa: ANN401  any triple
 
 def _store(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
     mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values.astype(np.float32))
-
-
-def _store_color(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
-    attribute = mesh.attributes.new(name, "FLOAT_COLOR", "POINT")
-    attribute.data.foreach_set("color", np.column_stack([values, np.ones(len(values))]).astype(np.float32).ravel())

@@ -58,9 +58,8 @@ def compared(study: Study) -> str:
         f"{numbers['samples']} samples each, has {100 * study.reference.noise:.0f} % residual noise, which is "
         f"subtracted. CPU time is that of the whole render call; for a walk it is {seconds(cost.fixed)} plus "
         f"{cost.each:.3g} s per sample per pixel. A lookup additionally costs {seconds(core['thickness'])} once per "
-        f"mesh for its thickness, {seconds(core['tables'])} for the tables and, if lit per pixel, "
-        f"{seconds(core['far_side'])} per change of the lights. Interreflection makes the ear {gain:.2f} times as "
-        f"bright."
+        f"mesh, for its thickness above all, and {seconds(core['update'])} per change of the lights. "
+        f"Interreflection makes the ear {gain:.2f} times as bright."
     )
     return "\n\n".join(
         [about, report.table(heading, rows), report.table(["random walk, samples", "error", "CPU time"], walk)]

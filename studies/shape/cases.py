@@ -99,15 +99,20 @@ class HeadMesh:
         )
 
     def irradiance(self, name: str) -> Array:
-        """W/m^2 by vertex, one for all channels: the light is white. What the head itself hides is dark."""
-        light, points = self.light(name), self.vertices / MM_PER_METER
-        free = sg.surface_irradiance([light], points, self.normals)[:, 0]
-        lit = free > 1e-6 * free.max()
+        """W/m^2 by vertex, one for all channels: the light is white."""
+        return self.irradiance_of([self.light(name)])[:, 0]
+
+    def irradiance_of(self, lights: list[sg.Light]) -> Array:
+        """W/m^2 by vertex and channel. What the head itself hides is dark."""
+        points = self.vertices / MM_PER_METER
         occluders = sg.Occluders([(points, self.triangles)], origin=tuple(self.ear_center / MM_PER_METER))
-        lifted = points[lit] + 2e-5 * self.normals[lit]
-        seen = occluders.visible_fraction([light], lifted, self.normals[lit], samples=32).at_points[:, 0]
-        result = np.zeros(len(points))
-        result[lit] = free[lit] * seen
+        result = np.zeros((len(points), 3))
+        for light in lights:
+            free = sg.surface_irradiance([light], points, self.normals)
+            lit = free.max(axis=1) > 1e-6 * free.max()
+            lifted = points[lit] + 2e-5 * self.normals[lit]
+            seen = occluders.visible_fraction([light], lifted, self.normals[lit], samples=32).at_points[:, 0]
+            result[lit] += free[lit] * seen[:, None]
         return result
 
     def back_lit(self, irradiance: Array) -> NDArray[np.bool_]:

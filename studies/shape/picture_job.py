@@ -30,11 +30,6 @@ def spot(scene: bpy.types.Scene, light: dict[str, Any]) -> None:
     scene.collection.objects.link(thing)
 
 
-def store_color(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
-    attribute = mesh.attributes.new(name, "FLOAT_COLOR", "POINT")
-    attribute.data.foreach_set("color", np.column_stack([values, np.ones(len(values))]).astype(np.float32).ravel())
-
-
 def main(job: dict[str, Any]) -> dict[str, Any]:
     out = Path(job["out"])
     with np.load(job["attributes"]) as file:
@@ -49,7 +44,7 @@ def main(job: dict[str, Any]) -> dict[str, Any]:
     for name, values in attributes.items():
         if len(values) != len(head.data.vertices):
             raise SystemExit(f"{name} has {len(values)} values, the head {len(head.data.vertices)} vertices")
-        store_color(head.data, name, values)
+        rendering.store_color(head.data, name, values)
 
     pictures: dict[str, np.ndarray] = {}
     seconds: dict[str, float] = {}

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import resource
-from collections.abc import Callable
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 import skinglow as sg
@@ -14,8 +12,8 @@ from studies.progress import Progress
 from studies.shape.cases import Array, Error, error
 from studies.shape.pictures import Pictures, ViewDependence
 from studies.shape.truths import Lit
+from studies.timing import timed
 
-Result = TypeVar("Result")
 CELLS_MM = (0.8, 0.5)
 REPEATS = 5
 #: From the ear's center: what is farther lights no vertex that counts.
@@ -132,14 +130,6 @@ class Cost(NamedTuple):
     megabytes: float
 
 
-def cpu(function: Callable[[], Result]) -> tuple[Result, float]:
-    """CPU seconds of all threads: less affected by other work than the clock."""
-    before = resource.getrusage(resource.RUSAGE_SELF)
-    result = function()
-    after = resource.getrusage(resource.RUSAGE_SELF)
-    return result, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-
-
 def costs(lit: Lit) -> list[Cost]:
     """One ear, three channels, one thread. The first light prepares the parts that it falls on."""
     found = []
@@ -151,11 +141,11 @@ def costs(lit: Lit) -> list[Cost]:
             shape.exitance(light_on_ear(lit))
             return shape
 
-        shape, seconds = cpu(prepare)
+        shape, seconds = timed(prepare)
         times = []
         for i in range(REPEATS):
             moved = light_on_ear(lit) * (1.0 + 0.01 * i)
-            times.append(cpu(lambda shape=shape, moved=moved: shape.exitance(moved))[1])
+            times.append(timed(shape.exitance, moved)[1])
         cells = sum(part.cells for part in shape.parts)
         found.append(Cost(cell, len(shape.points), cells, seconds - min(times), min(times), shape.bytes / 1e6))
     return found

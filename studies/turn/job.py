@@ -16,6 +16,7 @@ from studies import rendering
 from studies import scenes as stage
 from studies.in_blender import Steps
 from studies.medium import INDEX, SKIN1
+from studies.timing import timed
 
 DISTANCE_M, COLOR, POWER_W, RADIUS_M = 0.16, (1.0, 0.78, 0.55), 3.0, 0.012
 CAMERA_AZIMUTH, VISIBLE_M = math.radians(28.0), 0.078
@@ -53,15 +54,15 @@ def main(job: dict[str, Any]) -> dict[str, Any]:
     told: dict[str, Any] = {"blender": job["host"]}
     step("the skin")
     if job["kind"] == "shape":
-        scene.render.engine = eevee()
-        samples, scene.eevee.taa_render_samples = 32, 32
-        _sharpen_shadows(scene, light.data)
+        samples = 32
+        rendering.use_eevee(scene, samples)
+        rendering.sharpen_shadows(scene, light.data)
         rendering.assign_material(head, lit_surface())
         sb.register()
         sb.make_skin(head)
         sb.set_medium(head, SKIN1.absorption, SKIN1.reduced_scattering, refractive_index=INDEX)
         _place(light, ear, job["azimuths"][0])
-        _, told["made_s"] = rendering.timed(lambda: sb.make_skin(head, weights="shape"))
+        _, told["made_s"] = timed(sb.make_skin, head, weights="shape")
     else:
         rendering.assign_material(head, rendering.random_walk(SKIN1))
         rendering.bounce(scene, 2)
@@ -80,18 +81,3 @@ def _place(light: bpy.types.Object, ear: Vector, azimuth: float) -> None:
     angle = math.radians(azimuth)
     light.location = ear + DISTANCE_M * Vector((math.sin(angle), -math.cos(angle), 0.1)).normalized()
     bpy.context.view_layer.update()
-
-
-def _sharpen_shadows(scene: bpy.types.Scene, light: bpy.types.Light) -> None:
-    """The shadow maps of EEVEE before Blender 4.2 let light through what is as thin as an ear."""
-    if not hasattr(scene.eevee, "shadow_cube_size"):
-        return
-    scene.eevee.use_soft_shadows = scene.eevee.use_shadow_high_bitdepth = True
-    scene.eevee.shadow_cube_size = "4096"
-    light.shadow_buffer_clip_start, light.shadow_buffer_bias = 0.02, 0.01
-    light.use_contact_shadow = True
-    light.contact_shadow_distance, light.contact_shadow_bias, light.contact_shadow_thickness = 0.04, 0.0005, 0.01
-
-
-def eevee() -> str:
-    return "BLENDER_EEVEE" if bpy.app.version < (4, 2, 0) or bpy.app.version >= (5, 0, 0) else "BLENDER_EEVEE_NEXT"
