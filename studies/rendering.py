@@ -109,6 +109,18 @@ def black() -> bpy.types.Material:
     return material
 
 
+def mesh_arrays(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Points (n, 3) in the mesh's unit, normals (n, 3), triangles (m, 3)."""
+    count = len(mesh.vertices)
+    points, normals = np.empty((count, 3), np.float32), np.empty((count, 3), np.float32)
+    mesh.vertices.foreach_get("co", points.ravel())
+    mesh.vertex_normals.foreach_get("vector", normals.ravel())
+    mesh.calc_loop_triangles()
+    triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
+    mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
+    return points.astype(np.float64), normals.astype(np.float64), triangles
+
+
 def store_color(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
     """Values (vertices, 3) as a color attribute."""
     attribute = mesh.attributes.new(name, "FLOAT_COLOR", "POINT")

@@ -7,7 +7,7 @@ import platform
 
 import numpy as np
 import skinglow as sg
-from measurements.accuracy import light_colors, measurements, plots, task, weights, worlds
+from studies.accuracy import light_colors, measurements, plots, task, weights, worlds
 
 from studies import report
 from studies.paths import IMAGES, PROJECT

@@ -58,7 +58,8 @@ def build(job: dict[str, Any]) -> Ear:
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
     rendering.linear_render(scene, job["size"])
     head = stage.load_head(job)
-    skin = _read(head.data)
+    points, normals, triangles = rendering.mesh_arrays(head.data)
+    skin = _Skin(points, normals, triangles, np.zeros(len(points)))
     skin.thickness = skin.measured(MIN_SKY_VISIBILITY)
     center, radius = _find_ear(skin, np.array(stage.views_of(head)["_ear"][0]))
     camera = stage.aim_camera(scene, Vector(center), 2.2 * radius, math.radians(CAMERA_AZIMUTH_DEGREES))
@@ -72,17 +73,6 @@ def build(job: dict[str, Any]) -> Ear:
     rendering.store_color(head.data, FACTS, np.column_stack(facts))
     rendering.store_color(head.data, FAR_SIDE, skin.far_side(light, skin.thickness))
     return Ear(scene, head, light, skin.measured(0.0))
-
-
-def _read(mesh: bpy.types.Mesh) -> _Skin:
-    count = len(mesh.vertices)
-    points, normals = np.empty((count, 3), np.float32), np.empty((count, 3), np.float32)
-    mesh.vertices.foreach_get("co", points.ravel())
-    mesh.vertex_normals.foreach_get("vector", normals.ravel())
-    mesh.calc_loop_triangles()
-    triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
-    mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
-    return _Skin(points.astype(np.float64), normals.astype(np.float64), triangles, np.zeros(count))
 
 
 def _find_ear(skin: _Skin, outermost: np.ndarray) -> tuple[np.ndarray, float]:
