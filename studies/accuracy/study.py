@@ -7,9 +7,9 @@ import platform
 
 import numpy as np
 import skinglow as sg
-from studies.accuracy import light_colors, measurements, plots, task, weights, worlds
 
 from studies import report
+from studies.accuracy import light_colors, measurements, plots, task, weights, worlds
 from studies.paths import IMAGES, PROJECT
 
 DEPTHS_MM = (0.3, 1.0, 3.0, 6.0, 8.0)
