@@ -6,11 +6,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import skinglow as sg
 
 from studies.figures import plt, save, to_screen
 
 BACKGROUND, INK = "#16181c", "#d8dade"
 SHOWN_MM = 8.0
+MELANIN = ("very_light", "light", "medium", "dark", "very_dark")
+SKINS_MM, SKINS_EXPOSURE = 6.0, 8.0
 plt.rcParams.update(
     {
         "figure.facecolor": BACKGROUND,
@@ -34,6 +37,7 @@ def draw_all(out: Path, numbers: dict[str, Any]) -> None:
     pictures(out / "color_change.png", out, [("orange", "orange light"), ("blue", "blue light")])
     pictures(out / "rim.png", out, [("rim", "rim lights")])
     physical(out / "physical.png", out)
+    skins(out / "skins.png")
     light_output(out / "light_output.png", out, 2.0 ** numbers["exposure_stops"])
     hosts(out / "blender_and_povray.png", out, numbers)
 
@@ -76,6 +80,31 @@ def pictures(path: Path, out: Path, rows: list[tuple[str, str]]) -> None:
             axis.axis("off")
             if not view:
                 axis.set_title(f"{'existing' if mode == 'existing' else 'proposed'}: {title}", loc="left")
+    save(figure, path)
+
+
+def skins(path: Path) -> None:
+    """White light through skins, by thickness; one exposure for all."""
+    light = sg.TISSUE_PRESETS["light"]
+    fresh = light.replace(blood_fraction=0.03)
+    groups = {
+        "melanin": {name.replace("_", " "): sg.TISSUE_PRESETS[name] for name in MELANIN},
+        "blood": {f"{100 * x:g} %": light.replace(blood_fraction=x) for x in (0.0, 0.005, 0.01, 0.03)},
+        "oxygen in 3 %": {f"{100 * x:g} %": fresh.replace(oxygen_saturation=x) for x in (0.0, 0.5, 1.0)},
+    }
+    heights = [len(rows) for rows in groups.values()]
+    figure, axes = plt.subplots(sum(heights), 1, figsize=(11, 0.42 * sum(heights) + 1.0), sharex=True)
+    lines = iter(axes)
+    for group, rows in groups.items():
+        for row, (name, tissue) in enumerate(rows.items()):
+            axis = next(lines)
+            colors = np.maximum(sg.recolor(sg.base_lut(tissue, 256, SKINS_MM), (1.0, 1.0, 1.0)), 0.0) * SKINS_EXPOSURE
+            colors /= np.maximum(1.0, colors.max(axis=1, keepdims=True))  # keep the hue of what is too bright
+            axis.imshow(to_screen(colors)[None], aspect="auto", extent=(0.0, SKINS_MM, 0.0, 1.0))
+            axis.set_yticks([])
+            label = f"{group}: {name}" if row == 0 else name
+            axis.set_ylabel(label, rotation=0, ha="right", va="center")
+    axes[-1].set_xlabel("thickness, mm")
     save(figure, path)
 
 

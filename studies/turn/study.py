@@ -16,9 +16,8 @@ from studies.demo import head_source
 from studies.figures import plt, save, to_screen
 from studies.paths import IMAGES, PROJECT
 from studies.progress import Progress
+from studies.turn.film import AZIMUTHS, save_film
 
-#: Of the light, off the front towards the ear's side: from behind the head to beside it.
-AZIMUTHS = (190.0, 178.0, 166.0, 154.0, 140.0, 120.0)
 #: The brightest three percent of the first frame's pixels may be clipped.
 EXPOSED_PERCENTILE = 97.0
 
@@ -73,5 +72,7 @@ def main(arguments: list[str]) -> None:
             ax.set(xticks=[], yticks=[], xlabel=f"{cpu:.1f} s")
         line[0].set_ylabel(labels[kind], fontsize=9)
     save(sheet, options.picture, dpi=100)
+    film = options.picture.with_name(options.picture.stem + "_film.jpg")
+    save_film(film, [frames for frames, _seconds, _told in rows.values()], exposure)
     print({kind: told for kind, (_frames, _seconds, told) in rows.items()})
     print(options.picture)

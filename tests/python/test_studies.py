@@ -1,6 +1,7 @@
 """The command of the studies: what it lists is there, and it says in words what is missing."""
 
 import importlib
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 
 from studies import __main__ as command
+from studies.demo import page
 from studies.errors import Reference
 from studies.progress import StudyError
 from studies.report import fill
@@ -44,9 +46,33 @@ def test_a_picture_as_noisy_as_the_reference_has_its_own_strength():
 
 
 def test_a_page_without_the_section_is_told(tmp_path):
-    page = tmp_path / "page.md"
-    page.write_text("<!-- measured: here -->\nold\n<!-- end -->\n")
-    fill(page, {"here": "new"})
-    assert page.read_text() == "<!-- measured: here -->\nnew\n<!-- end -->\n"
+    path = tmp_path / "page.md"
+    path.write_text("<!-- measured: here -->\nold\n<!-- end -->\n")
+    fill(path, {"here": "new"})
+    assert path.read_text() == "<!-- measured: here -->\nnew\n<!-- end -->\n"
     with pytest.raises(ValueError, match="measured: there"):
-        fill(page, {"there": "new"})
+        fill(path, {"there": "new"})
+
+
+def test_the_page_of_the_demo_shows_only_what_is_in_its_folder(tmp_path):
+    light = {"name": "<Bulb>", "distance": None, "weight": (0.1, 0.2, 0.3), "share": 1.0, "reason": None}
+    numbers = {
+        "head": {"name": "A & B", "license": "CC0"},
+        "vertices": 3,
+        "blender": "4.5",
+        "seconds": 1.0,
+        "strength": 20.0,
+        "exposure_stops": 2.0,
+        "comparison": {"rms": 1e-3, "max": 1e-2, "allowed_rms": 1 / 255},
+        "lights": {"table1": [light], "rim": [light]},
+    }
+    page.write(tmp_path, numbers)
+    text = (tmp_path / "index.html").read_text()
+    assert "&lt;Bulb&gt;" in text and "A &amp; B" in text
+    shown = re.findall(r"(?:src=|url\()([\w./]+)", text)
+    assert {name for name in shown if "/" in name} == {
+        f"from_docs/{path.name}" for path in tmp_path.glob("from_docs/*")
+    }
+    # What a run draws itself: by demo/figures.py, but for the first picture.
+    drawn = (ROOT / "studies" / "demo" / "figures.py").read_text()
+    assert all(f'"{name}"' in drawn for name in shown if "/" not in name and name != "physical_surface_ear.png")
