@@ -5,12 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from studies.heads import human_head
+from studies.heads.human_head import HeadError
 from studies.hosts import Host
 from studies.paths import PROJECT
 from studies.progress import Progress, StudyError
-
-from studies.heads import human_head
-from studies.heads.human_head import HeadError
 
 SHAPES = PROJECT / "build" / "makehuman"
 OPTIONS = ("up", "facing", "unit_mm", "ear")

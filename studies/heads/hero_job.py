@@ -9,10 +9,10 @@ from typing import Any
 
 import bpy
 import skinglow_blender as sb
-from studies.in_blender import MARK, Steps
 
 from studies.heads import loading, portrait, preview, studio
 from studies.heads.human_head import HeadError
+from studies.in_blender import MARK, Steps
 
 #: Lookup and cells of the solution: for work, as the add-on's default.
 CELL_MM = 0.8
@@ -53,6 +53,7 @@ def main(job: dict[str, Any]) -> dict[str, Any]:
         "vertices": len(head.data.vertices),
         "ear": {"center": ear.center.tolist(), "size": ear.size, "side": ear.side},
         "orientation": {"up": placed.orientation.up, "facing": placed.orientation.facing},
+        "middle_x": placed.size.middle_x,
         "unit_mm": placed.unit_mm,
         "seconds": {"solving": round(solved - started, 1), "rendering": round(ended - solved, 1)},
     }

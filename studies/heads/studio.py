@@ -19,7 +19,7 @@ WARM: Color = (1.0, 0.72, 0.45)
 BULB_W, BULB_RADIUS_M = 35.0, 0.01
 EXPOSURE_STOPS = 1.1
 #: From the ear, of an ear on +X: x out of the head, y to the back, z up, meters.
-BULB, FILL, RIM = (0.0, 0.14, -0.04), (-0.35, -0.6, 0.25), (-0.5, 0.4, 0.5)
+BULB, FILL, RIM = (0.0, 0.14, -0.04), (-0.22, -0.58, 0.42), (-0.5, 0.4, 0.5)
 
 
 def settings(scene: bpy.types.Scene, width: int, height: int, samples: int) -> None:
@@ -36,6 +36,12 @@ def settings(scene: bpy.types.Scene, width: int, height: int, samples: int) -> N
     _first_of(scene.view_settings, "view_transform", ("AgX", "Filmic"))
     _first_of(scene.view_settings, "look", ("AgX - Punchy", "High Contrast"))
     scene.view_settings.exposure = EXPOSURE_STOPS
+
+
+def show_as_it_is(scene: bpy.types.Scene) -> None:
+    """Linear light by sRGB's curve, and no more: pictures that are compared."""
+    scene.view_settings.view_transform, scene.view_settings.exposure = "Standard", 0.0
+    _first_of(scene.view_settings, "look", ("None",))
 
 
 def _first_of(settings: bpy.types.ColorManagedViewSettings, name: str, choices: tuple[str, ...]) -> None:
@@ -75,11 +81,15 @@ def ear_of(placed: Placed) -> Ear:
 
 def lights(scene: bpy.types.Scene, ear: Ear) -> bpy.types.Object:
     """A warm bulb behind the ear, which is returned, a dim cool fill before and a rim from the far side."""
-    bulb = _light(scene, "bulb behind the ear", "POINT", ear, BULB, BULB_W, WARM, BULB_RADIUS_M)
+    behind = bulb(scene, ear)
     _light(scene, "fill", "AREA", ear, FILL, 2.2, (0.82, 0.88, 1.0), 0.5)
     _light(scene, "rim", "AREA", ear, RIM, 4.0, (0.60, 0.75, 1.0), 0.3)
     bpy.context.view_layer.update()
-    return bulb
+    return behind
+
+
+def bulb(scene: bpy.types.Scene, ear: Ear, power: float = BULB_W) -> bpy.types.Object:
+    return _light(scene, "bulb behind the ear", "POINT", ear, BULB, power, WARM, BULB_RADIUS_M)
 
 
 def _light(

@@ -1,22 +1,17 @@
 """Which way a head of a file looks, how large it is and where its ears are: studies/heads."""
 
-import sys
 from itertools import product
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-PROJECT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(PROJECT))
+from studies.heads import preview
+from studies.heads.any_head import place
+from studies.heads.human_head import HeadError
+from studies.heads.orientation import AXES, Orientation, guess, normalized
+from studies.heads.samples import sample
+from studies.paths import SCAN
 
-from studies.heads import preview  # noqa: E402
-from studies.heads.any_head import place  # noqa: E402
-from studies.heads.human_head import HeadError  # noqa: E402
-from studies.heads.orientation import AXES, Orientation, guess, normalized  # noqa: E402
-from studies.heads.samples import sample  # noqa: E402
-
-SCAN = PROJECT.parent / "shared" / "data" / "heads" / "LeePerrySmith.glb"
 ALL_WAYS = [Orientation(up, facing) for up, facing in product(AXES, AXES) if up[1] != facing[1]]
 
 
