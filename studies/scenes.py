@@ -164,12 +164,26 @@ def transmitted_light_only(head: bpy.types.Object) -> Iterator[None]:
     tree.links.remove(surface.links[0])
     for other in others:
         other.hide_render = True
+    kept = [slot.material for slot in head.material_slots]
+    for slot in head.material_slots:
+        if slot.material != head.active_material:
+            slot.material = _black()
     try:
         yield
     finally:
         tree.links.new(source, surface)
+        for slot, material in zip(head.material_slots, kept, strict=True):
+            slot.material = material
         for other in others:
             other.hide_render = False
+
+
+def _black() -> bpy.types.Material:
+    material = bpy.data.materials.new("black")
+    if material.node_tree is None:
+        material.use_nodes = True
+    material.node_tree.nodes.remove(material.node_tree.nodes["Principled BSDF"])
+    return material
 
 
 AOV = "Transmitted Light"
@@ -255,10 +269,14 @@ def views_of(head: bpy.types.Object) -> dict[str, tuple[Vector, float]]:
     return {"": (center, 1.12 * max(height, 0.9 * width)), "_ear": (ear.copy(), 0.42 * height)}
 
 
-def light_behind_ear(scene: bpy.types.Scene, head: bpy.types.Object) -> bpy.types.Object:
-    """A warm bulb of 2 W, 15 cm behind the ear found by `views_of`; replaces all other lights."""
+def remove_lights() -> None:
     for old in [o for o in bpy.data.objects if o.type == "LIGHT"]:
         bpy.data.objects.remove(old)
+
+
+def light_behind_ear(scene: bpy.types.Scene, head: bpy.types.Object) -> bpy.types.Object:
+    """A warm bulb of 2 W, 15 cm behind the ear found by `views_of`; replaces all other lights."""
+    remove_lights()
     ear, _height = views_of(head)["_ear"]
     data = bpy.data.lights.new("behind the ear", "POINT")
     data.color, data.energy, data.shadow_soft_size = (1.0, 0.75, 0.5), 2.0, 0.01
@@ -271,8 +289,7 @@ def light_behind_ear(scene: bpy.types.Scene, head: bpy.types.Object) -> bpy.type
 
 def add_rig(scene: bpy.types.Scene, rig: Rig, center: Vector) -> list[bpy.types.Object]:
     """Adds the lights of a rig file, with its origin at `center`; replaces all other lights."""
-    for old in [o for o in bpy.data.objects if o.type == "LIGHT"]:
-        bpy.data.objects.remove(old)
+    remove_lights()
     lights = []
     for entry in rig["lights"]:
         data = bpy.data.lights.new(entry["name"], entry["kind"])

@@ -1,8 +1,7 @@
-"""Runs inside Blender: makes the head glow, renders it, writes the POV-Ray scene, reports to hosts.Host."""
+"""Runs inside Blender: every mode on the head of the first picture, and the POV-Ray scene."""
 
 from __future__ import annotations
 
-import math
 import time
 from pathlib import Path
 from typing import Any
@@ -10,8 +9,12 @@ from typing import Any
 import bpy
 import numpy as np
 import skinglow_blender as sb
+from mathutils import Vector
 
 from studies import scenes as stage
+from studies.demo import light_rigs
+from studies.heads import studio
+from studies.heads.ears import Ear
 from studies.in_blender import Steps
 
 MODES = ("existing", "paper")
@@ -23,21 +26,27 @@ STRENGTH = 20.0
 EXPOSURE_STOPS = 2.0
 ORANGE, BLUE = (1.0, 112 / 255, 69 / 255), (15 / 255, 64 / 255, 1.0)  # two lights of Table 1
 
+#: As POV-Ray samples pixels; transmitted light alone has no noise.
+EXACT = {"pixel_filter_type": "BOX", "samples": 64, "use_denoising": False, "use_adaptive_sampling": False}
+
 
 class Studio:
     """The scene and the results so far."""
 
     def __init__(self, job: dict[str, Any]) -> None:
         self.out = Path(job["out"])
-        self.scene = stage.empty_scene()
-        self.scene.render.resolution_x = self.scene.render.resolution_y = job["size"]
-        self.scene.cycles.samples = job["samples"]
-        self.head = stage.load_head(job)
-        stage.skin_surface(self.head, job["color_map"], job["normal_map"])
-        azimuth = math.radians(job["camera_azimuth_degrees"])
-        views = stage.views_of(self.head)
-        self.cameras = {v: stage.aim_camera(self.scene, at, height, azimuth) for v, (at, height) in views.items()}
-        self.center = stage.center_of(self.head)
+        bpy.ops.wm.open_mainfile(filepath=str(self.out / "head.blend"))
+        self.scene = bpy.context.scene
+        studio.settings(self.scene, job["size"], job["size"], job["samples"])
+        studio.show_as_it_is(self.scene)
+        self.head = bpy.data.objects["head"]
+        self.ear = ear = Ear(np.array(job["ear"]["center"]), job["ear"]["size"], job["ear"]["side"])
+        self.cameras = {
+            "": studio.portrait_camera(self.scene, ear),
+            "_ear": studio.camera(self.scene, ear, (-0.012, 0.0, 0.0), 0.11, light_rigs.CAMERA_AZIMUTH_DEGREES),
+        }
+        # Of rigs, and the reference point of distances.
+        self.center = Vector((job["middle_x"], *ear.center[1:]))
         self.tables: dict[str, np.ndarray] = {}
         self.lights: dict[str, Any] = {}
 
@@ -57,7 +66,9 @@ class Studio:
 
     def show_physical(self) -> None:
         """Mode physical, W/m^2 unscaled, a light behind the ear: lit per object and per pixel."""
-        stage.light_behind_ear(self.scene, self.head)
+        stage.remove_lights()
+        studio.bulb(self.scene, self.ear, 2.0)
+        bpy.context.view_layer.update()
         self.scene.view_settings.exposure = EXPOSURE_STOPS
         for weights in WEIGHTS:
             sb.make_skin(self.head, mode="physical", weights=weights, strength=1.0)
@@ -82,8 +93,9 @@ class Studio:
     def render_transmitted_light(self) -> None:
         """Renders only the glow, as linear EXR: a box filter as in POV-Ray, alpha for the outline."""
         scene, settings = self.scene, self.scene.render.image_settings
-        kept = scene.cycles.pixel_filter_type, scene.cycles.samples
-        scene.cycles.pixel_filter_type, scene.cycles.samples = "BOX", 64
+        kept = {name: getattr(scene.cycles, name) for name in EXACT}
+        for name, value in EXACT.items():
+            setattr(scene.cycles, name, value)
         scene.render.film_transparent = True
         settings.file_format, settings.color_depth, settings.color_mode = "OPEN_EXR", "32", "RGBA"
         with stage.transmitted_light_only(self.head):
@@ -91,30 +103,29 @@ class Studio:
         settings.file_format, settings.color_depth, settings.color_mode = "PNG", "8", "RGB"
         bpy.data.images["Render Result"].save_render(str(self.out / "light_through_blender.png"))
         scene.render.film_transparent = False
-        scene.cycles.pixel_filter_type, scene.cycles.samples = kept
+        for name, value in kept.items():
+            setattr(scene.cycles, name, value)
 
 
 def main(job: dict[str, Any]) -> dict[str, Any]:
     started = time.monotonic()
-    step = Steps(of=10)
-    step("loading the head")
-    studio = Studio(job)
-    stage.add_rig(studio.scene, job["rigs"]["table1"], studio.center)
-    step(f"measuring the thickness of the skin at {len(studio.head.data.vertices):,} vertices")
-    state = sb.make_skin(studio.head, mode="paper", strength=STRENGTH)
-    bpy.ops.wm.save_as_mainfile(filepath=str(studio.out / "head.blend"))
-
+    step = Steps(of=9)
+    step("opening the scene of the first picture")
+    made = Studio(job)
+    stage.add_rig(made.scene, job["rigs"]["table1"], made.center)
+    sb.register()
+    state = sb.make_skin(made.head, mode="paper", weights="object", strength=STRENGTH, reference_point=made.center)
     step("Cycles: lights of Table 1")
-    studio.show("table1")
+    made.show("table1")
     step("Cycles: transmitted light only")
-    studio.render_transmitted_light()
+    made.render_transmitted_light()
     step("exporting the scene to POV-Ray")
-    studio.scene.camera = studio.cameras[""]
-    sb.export_povray(bpy.context.evaluated_depsgraph_get(), studio.out / "povray")
+    made.scene.camera = made.cameras[""]
+    sb.export_povray(bpy.context.evaluated_depsgraph_get(), made.out / "povray")
     # For cross-checking, the POV-Ray macros compute the lookup themselves, from the lights and the base.
-    studio.scene.camera = studio.cameras["_ear"]
+    made.scene.camera = made.cameras["_ear"]
     sb.export_povray(
-        bpy.context.evaluated_depsgraph_get(), studio.out / "povray_light_through", surface=False, compute_lut=True
+        bpy.context.evaluated_depsgraph_get(), made.out / "povray_light_through", surface=False, compute_lut=True
     )
 
     for name in ("Light1", "Light3"):
@@ -122,21 +133,21 @@ def main(job: dict[str, Any]) -> dict[str, Any]:
     for color, values in (("orange", ORANGE), ("blue", BLUE)):
         step(f"Cycles: {color} light behind the ear")
         bpy.data.objects["Light2"].data.color = values
-        studio.show(color)
+        made.show(color)
     step("Cycles: the rim lights")
-    stage.add_rig(studio.scene, job["rigs"]["rim"], studio.center)
-    studio.show("rim")
+    stage.add_rig(made.scene, job["rigs"]["rim"], made.center)
+    made.show("rim")
     step("Cycles: mode physical, a light behind the ear")
-    studio.show_physical()
+    made.show_physical()
     step("Cycles: the transmitted light as an AOV")
-    studio.show_light_output()
-    np.savez(studio.out / "tables.npz", **studio.tables)
+    made.show_light_output()
+    np.savez(made.out / "tables.npz", **made.tables)
     return {
         "blender": job["host"],
-        "lights": studio.lights,
+        "lights": made.lights,
         "strength": STRENGTH,
         "exposure_stops": EXPOSURE_STOPS,
         "max_thickness_mm": state.max_thickness_mm,
-        "vertices": len(studio.head.data.vertices),
+        "vertices": len(made.head.data.vertices),
         "blender_seconds": round(time.monotonic() - started, 1),
     }

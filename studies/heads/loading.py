@@ -1,0 +1,123 @@
+"""Runs inside Blender: a head in the scene, in meters, Z up, facing -Y: the person, Suzanne, or any of a file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+# isort: off  (importing bpy is what makes the others importable in the wheels)
+import bmesh
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+# isort: on
+from studies.heads import human_head, person_materials, portrait
+from studies.heads.any_head import Placed, place
+from studies.heads.human_head import HeadError
+from studies.heads.samples import Array
+
+#: What Blender's importers do to a file's axes: rows are Blender's x, y, z.
+Y_UP = np.array([(1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0)])
+AS_IT_IS = np.eye(3)
+
+
+def load(job: dict[str, Any]) -> tuple[bpy.types.Object, Placed]:
+    """The head of a job, with materials, of which the first slot alone is skin, and where its ears are.
+
+    job: "mesh" ("person", "suzanne" or a path), "folder" of the person's shapes, and, None or given, "up", "facing",
+    "unit_mm", "ear", "color_map", "normal_map".
+    Raises HeadError in words.
+    """
+    options = {key: job.get(key) for key in ("up", "facing", "unit_mm", "ear")}
+    if job["mesh"] == "person":
+        head = portrait.build(human_head.read(Path(job["folder"])))
+        return head, _placed(head, "the person", AS_IT_IS, {"up": "+Z", "facing": "-Y", "unit_mm": 1000.0})
+    if job["mesh"] == "suzanne":
+        bpy.ops.mesh.primitive_monkey_add()
+        head, name, axes = bpy.context.object, "Suzanne", AS_IT_IS
+        options["up"], options["facing"] = options["up"] or "+Z", options["facing"] or "-Y"
+    else:
+        head, name, axes = _import(Path(job["mesh"])), Path(job["mesh"]).name, _axes(Path(job["mesh"]))
+    placed = _placed(head, name, axes, options)
+    matrix = np.eye(4)
+    matrix[:3, :3] = placed.matrix() @ axes.T
+    head.data.transform(Matrix(matrix.tolist()))
+    _clean(head.data)
+    count = len(head.data.polygons)
+    if levels := 2 if count < 8000 else 1 if count < 30000 else 0:
+        portrait.subdivide(head, levels)
+    head.data.polygons.foreach_set("use_smooth", np.ones(len(head.data.polygons), bool))
+    head.name = "head"
+    if job.get("color_map") or job.get("normal_map") or not _has_own_colors(head):
+        head.data.materials.clear()
+        head.data.materials.append(person_materials.plain(job.get("color_map"), job.get("normal_map")))
+        head.data.polygons.foreach_set("material_index", np.zeros(len(head.data.polygons), np.int32))
+    return head, placed
+
+
+def skin_slots(head: bpy.types.Object) -> list[int]:
+    """Of the person the first; of a file's head all."""
+    return [0] if portrait.MASK_GROUP in head.vertex_groups else list(range(len(head.material_slots)))
+
+
+def _axes(path: Path) -> Array:
+    return AS_IT_IS if path.suffix.lower() == ".ply" else Y_UP
+
+
+def _placed(head: bpy.types.Object, name: str, axes: Array, options: dict[str, Any]) -> Placed:
+    mesh = head.data
+    mesh.calc_loop_triangles()
+    vertices = np.empty((len(mesh.vertices), 3), np.float32)
+    mesh.vertices.foreach_get("co", vertices.ravel())
+    triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
+    mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
+    return place(vertices.astype(float) @ axes, triangles, name, **options)
+
+
+def _import(path: Path) -> bpy.types.Object:
+    """All meshes of a file as one object at the origin."""
+    suffix, before = path.suffix.lower(), set(bpy.data.objects)
+    if suffix in (".glb", ".gltf"):
+        bpy.ops.import_scene.gltf(filepath=str(path))
+    elif suffix == ".obj" and bpy.app.version >= (3, 3, 0):
+        bpy.ops.wm.obj_import(filepath=str(path))
+    elif suffix == ".ply" and bpy.app.version >= (3, 6, 0):
+        bpy.ops.wm.ply_import(filepath=str(path))
+    elif suffix == ".ply":
+        bpy.ops.import_mesh.ply(filepath=str(path))
+    else:
+        raise HeadError(f"{path.name}: this file format is not read; allowed: .glb, .gltf, .obj, .ply")
+    new = [thing for thing in bpy.data.objects if thing not in before]
+    meshes = [thing for thing in new if thing.type == "MESH" and len(thing.data.polygons)]
+    if not meshes:
+        raise HeadError(f"{path.name}: contains no mesh with faces")
+    for thing in meshes:
+        thing.data.transform(thing.matrix_world)
+    for thing in meshes:
+        thing.parent, thing.matrix_world = None, Matrix()
+        if thing.name not in bpy.context.scene.collection.objects:
+            bpy.context.scene.collection.objects.link(thing)
+    if len(meshes) > 1:
+        with bpy.context.temp_override(active_object=meshes[0], selected_editable_objects=meshes):
+            bpy.ops.object.join()
+    for thing in new:
+        if thing is not meshes[0] and thing.name in bpy.data.objects:
+            bpy.data.objects.remove(thing)
+    return meshes[0]
+
+
+def _clean(mesh: bpy.types.Mesh) -> None:
+    """Welds the seams of UV maps, at which subdividing would open the mesh."""
+    work = bmesh.new()
+    work.from_mesh(mesh)
+    bmesh.ops.remove_doubles(work, verts=work.verts, dist=1e-6)
+    bmesh.ops.delete(work, geom=[v for v in work.verts if not v.link_faces], context="VERTS")
+    work.to_mesh(mesh)
+    work.free()
+
+
+def _has_own_colors(head: bpy.types.Object) -> bool:
+    """Whether the file brought a texture."""
+    trees = [slot.material.node_tree for slot in head.material_slots if slot.material is not None]
+    return any(node.bl_idname == "ShaderNodeTexImage" for tree in trees if tree is not None for node in tree.nodes)

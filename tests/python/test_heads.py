@@ -1,0 +1,160 @@
+"""Which way a head of a file looks, how large it is and where its ears are: studies/heads."""
+
+from itertools import product
+
+import numpy as np
+import pytest
+
+from studies.heads import preview
+from studies.heads.any_head import place
+from studies.heads.human_head import HeadError
+from studies.heads.orientation import AXES, Orientation, guess, normalized
+from studies.heads.samples import sample
+from studies.paths import SCAN
+
+ALL_WAYS = [Orientation(up, facing) for up, facing in product(AXES, AXES) if up[1] != facing[1]]
+
+
+def ball(center, radii, count=48):
+    """An ellipsoid: vertices and triangles."""
+    polar, around = np.meshgrid(np.linspace(0.0, np.pi, count), np.linspace(0.0, 2.0 * np.pi, 2 * count), indexing="ij")
+    unit = np.stack([np.sin(polar) * np.cos(around), np.sin(polar) * np.sin(around), np.cos(polar)], axis=-1)
+    return np.array(center) + unit.reshape(-1, 3) * radii, grid(count, 2 * count)
+
+
+def tube(bottom, top, radius, count=48):
+    """An open cylinder along z."""
+    height, around = np.meshgrid(np.linspace(bottom, top, count), np.linspace(0.0, 2.0 * np.pi, count), indexing="ij")
+    points = np.stack([radius * np.cos(around), radius * np.sin(around) + 0.01, height], axis=-1)
+    return points.reshape(-1, 3), grid(count, count)[:, ::-1]
+
+
+def grid(rows, columns):
+    index = np.arange(rows * columns).reshape(rows, columns)
+    a, b, c, d = index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]
+    return np.concatenate([np.stack(t, axis=-1).reshape(-1, 3) for t in ((a, b, c), (a, c, d))])
+
+
+def head(ears=("left", "right")):
+    """Meters, Z up, facing -Y: a skull, a jaw, a nose, a brow, lips, ears and an open neck."""
+    parts = [
+        ball((0.0, 0.0, 0.08), (0.076, 0.098, 0.095)),
+        ball((0.0, -0.040, 0.0), (0.055, 0.055, 0.070)),
+        ball((0.0, -0.100, 0.035), (0.012, 0.022, 0.024), 20),
+        ball((0.0, -0.088, 0.075), (0.045, 0.012, 0.010), 20),
+        ball((0.0, -0.092, -0.010), (0.024, 0.010, 0.008), 20),
+        tube(-0.13, 0.02, 0.055),
+    ]
+    parts += [ball((side, 0.01, 0.045), (0.016, 0.014, 0.031), 24) for side in _sides(ears)]
+    vertices, triangles, count = [], [], 0
+    for points, corners in parts:
+        vertices.append(points)
+        triangles.append(corners + count)
+        count += len(points)
+    return np.concatenate(vertices), np.concatenate(triangles)
+
+
+def _sides(ears):
+    return [x for name, x in (("left", 0.082), ("right", -0.082)) if name in ears]
+
+
+def as_file(vertices, way):
+    """The vertices in the axes of a file that has it that way."""
+    return vertices @ way.rotation()
+
+
+def test_a_head_is_seen_for_what_it_is_any_way_it_lies():
+    vertices, triangles = head()
+    samples = sample(vertices, triangles, 20_000)
+    for way in ALL_WAYS:
+        found = guess(samples.turned(way.rotation().T))
+        assert found.orientation == way
+        assert found.is_sure
+
+
+def test_what_is_given_is_kept_and_the_rest_guessed():
+    vertices, triangles = head()
+    placed = place(as_file(vertices, Orientation("-X", "+Z")), triangles, "scan.ply", up="-x")
+    assert placed.orientation == Orientation("-X", "+Z")
+    both = place(vertices, triangles, "scan.ply", up="y", facing="x")
+    assert both.orientation == Orientation("+Y", "+X")
+
+
+def test_a_gltf_file_is_taken_as_its_standard_says_and_doubts_are_told():
+    vertices, triangles = head()
+    right = place(as_file(vertices, Orientation("+Y", "+Z")), triangles, "head.glb")
+    assert right.orientation == Orientation("+Y", "+Z")
+    assert not any("looks as if" in sentence for sentence in right.said)
+    wrong = place(vertices, triangles, "head.glb")
+    assert wrong.orientation == Orientation("+Y", "+Z")
+    assert any("add --up=+Z --facing=-Y" in sentence for sentence in wrong.said)
+
+
+def test_ears_are_found_and_missing_ones_told():
+    both = place(*head(), "head.ply")
+    assert {ear.side for ear in both.ears} == {1.0, -1.0}
+    for ear in both.ears:
+        assert ear.center == pytest.approx([0.088 * ear.side, 0.01, 0.045], abs=0.012)
+    one = place(*head(ears=["right"]), "head.ply", up="z", facing="-y")
+    assert [ear.side for ear in one.ears] == [-1.0]
+    assert any("only the right ear" in sentence for sentence in one.said)
+    none = place(*head(ears=[]), "head.ply")
+    assert none.ears == []
+    assert any("no ear was found" in sentence and "--ear" in sentence for sentence in none.said)
+
+
+def test_an_ear_that_is_given_is_taken():
+    vertices, triangles = head(ears=[])
+    way = Orientation("+Y", "+Z")
+    placed = place(1000.0 * as_file(vertices, way), triangles, "head.obj", ear=(-80.0, 45.0, -10.0))
+    assert placed.ears[0].center == pytest.approx([-0.080, 0.010, 0.045])
+    assert placed.ears[0].side == -1.0
+
+
+@pytest.mark.parametrize(("scale", "unit"), [(1.0, 1000.0), (1000.0, 1.0), (100.0, 10.0), (10.0, 100.0)])
+def test_the_unit_is_the_one_that_makes_it_a_head(scale, unit):
+    vertices, triangles = head()
+    assert place(scale * vertices, triangles, "head.ply").unit_mm == unit
+
+
+@pytest.mark.parametrize(("scale", "size"), [(1000.0, "152 m wide"), (0.01, "1.52 mm wide")])
+def test_a_head_of_another_size_is_told_with_the_remedy(scale, size):
+    vertices, triangles = head()
+    with pytest.raises(HeadError, match=r"--unit 1000 the head would be .* wide.*give --unit ") as raised:
+        place(scale * vertices, triangles, "head.ply", unit_mm=1000.0)
+    number = float(str(raised.value).split("the head would be ")[1].split()[0])
+    assert number == pytest.approx(float(size.split()[0]), rel=0.15)
+    assert size.split()[1] in str(raised.value)
+
+
+def test_options_that_cannot_be_are_told():
+    vertices, triangles = head()
+    for options in ({"up": "w"}, {"up": "y", "facing": "-Y"}, {"unit_mm": -1.0}, {"unit_mm": float("nan")}):
+        with pytest.raises(HeadError, match="--"):
+            place(vertices, triangles, "head.ply", **options)
+    with pytest.raises(HeadError, match="no surface"):
+        place(np.zeros((3, 3)), np.array([[0, 1, 2]]), "head.ply")
+    assert normalized(" -z ") == "-Z"
+
+
+def test_the_preview_shows_the_head_and_marks_its_ears(tmp_path):
+    preview.draw(place(*head(), "head.ply"), tmp_path / "preview.png")
+    plt = pytest.importorskip("matplotlib.pyplot")
+    image = plt.imread(tmp_path / "preview.png")
+    height, width, _ = image.shape
+    assert width == 2 * height
+    marks = np.isclose(image[:, :, :3], preview.MARK / 255.0, atol=0.01).all(axis=2)
+    for half in (marks[:, : width // 2], marks[:, width // 2 :]):
+        assert half.sum() > 20
+
+
+def test_the_scan_is_found_however_it_is_turned():
+    if not SCAN.is_file():
+        pytest.skip("../shared/data/heads is not there")
+    trimesh = pytest.importorskip("trimesh")
+    scan = trimesh.load(SCAN, force="mesh", process=False)
+    samples = sample(np.array(scan.vertices), np.array(scan.faces), 20_000)
+    upright = samples.turned(Orientation("+Y", "+Z").rotation())
+    for way in ALL_WAYS[::3]:
+        assert guess(upright.turned(way.rotation().T)).orientation == way
+    assert len(place(np.array(scan.vertices), np.array(scan.faces), "scan.obj").ears) == 2
