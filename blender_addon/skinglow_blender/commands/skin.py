@@ -18,6 +18,7 @@ from ..read import measured_geometry, working_space, world_image
 from ..read.file_skins import skins_of_file
 from ..read.scene_reading import MEDIUM_PROPERTY, ROW_PROPERTY, read_skin
 from ..session import SESSION
+from ..setting_values import applied
 from ..show.frozen import is_frozen, read_frozen
 from ..show.lut_image import group_layout, image_pair, read_row, remove_images, shown_image
 from ..show.mask import fill_mask, remove_masks, store_masks
@@ -25,7 +26,7 @@ from ..show.material_settings import clear_material, reset_material
 from ..show.skin_group import clear
 from ..show.skin_material import add_to_materials, choose_slots, chosen_materials
 from ..show.tile_image import OBJECT_PROPERTIES, TILES
-from ..skin_settings import MEASURING_NAMES, SETTING_NAMES, applied
+from ..skin_settings import MEASURING_NAMES, SETTING_NAMES
 from ..table.lut_layout import shown_colors
 from ..table.skin_tables import Table
 from ..thickness import thickness_attribute

@@ -10,7 +10,8 @@ from mathutils import Matrix, Vector
 
 from ..blender_version import output_target
 from ..identity import key_of, lasting_key_of
-from ..skin_settings import TISSUE_SLIDERS, as_typed
+from ..setting_values import as_typed
+from ..tissue_presets import TISSUE_SLIDERS
 from .known_objects import Known, evaluated_objects, known_of, may_instance
 from .measured_size import MEASURED_CONE, MEASURED_UNIT, scale_since_measured
 from .scene_lights import SceneLight, read_light
