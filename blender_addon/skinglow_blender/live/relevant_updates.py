@@ -6,7 +6,7 @@ from typing import NamedTuple
 import bpy
 
 from ..identity import key_of, lasting_key_of
-from ..read.known_objects import Known, may_instance, still_holds
+from ..read.known_objects import Known, may_instance
 from ..session import SESSION
 from ..show.group_following import changes_groups
 
@@ -55,7 +55,7 @@ def changes_of(depsgraph: bpy.types.Depsgraph, known: Known | None, is_frame: bo
         objects = found.skins or scene_changed or is_empty or depsgraph.scene.skinglow.occlusion
     else:
         # Selecting something changes the scene, too.
-        objects = found.objects or is_empty or (scene_changed and not still_holds(known, depsgraph))
+        objects = found.objects or is_empty or (scene_changed and not known.still_holds(depsgraph))
     return Changes(found.skins or objects, objects, found.materials, frozenset(found.images), tuple(found.reshaped))
 
 
@@ -89,7 +89,10 @@ class _Changes:
             self.skins = True
 
     def _is_new(self, key: str) -> bool:
-        return self.known is None or key not in self.known.keys
+        try:
+            return self.known is None or key not in self.known.keys
+        except ReferenceError:  # something that was known is deleted
+            return True
 
     def take_data(self, changed: bpy.types.ID) -> None:
         if isinstance(changed, Material):

@@ -1,47 +1,78 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which objects of a depsgraph matter to skins, remembered so that an edit need not look at every object again."""
 
-from collections.abc import Iterable
-from typing import NamedTuple
+from functools import cached_property
 
 import bpy
 
 from ..blender_version import output_target
 from ..identity import key_of
 from . import working_space
-from .scene_world import read_world
+from .scene_world import World, read_world
 
 
-class Known(NamedTuple):
+class Known:
     """What one pass over a depsgraph found. Original objects: invalid after undo or load."""
 
-    read: tuple[bpy.types.Object, ...]  #: lights and skins, in the order of the reading
-    watched: tuple[bpy.types.Object, ...]  #: the same and all instancers, those hidden in the view layer too
-    keys: frozenset[str]  #: key_of what is watched
-    instancing: frozenset[str]  #: keys of the objects whose instances are lights or skins
-    mark: tuple  #: mark_of the depsgraph
+    def __init__(
+        self,
+        depsgraph: bpy.types.Depsgraph,
+        read: list[bpy.types.Object],
+        instancers: list[bpy.types.Object],
+        instancing: set[str],
+        world: World | None,
+    ) -> None:
+        """Remembers lights and skins of the view layer, what may have instances, and what has some of these."""
+        self.read = read  #: lights and skins, in the order of the reading
+        self.instancing = instancing  #: keys of the objects whose instances are lights or skins
+        # What is hidden may be in the depsgraph, as the parent of something, and is not reported when it is shown.
+        layer = depsgraph.view_layer
+        taken = set(read)
+        others = [obj for obj in layer.objects if obj not in taken]
+        self._hidden = [obj for obj in others if obj.type == "LIGHT"]
+        self._hidden += [obj for obj in others if not obj.visible_get(view_layer=layer) and may_instance(obj)]
+        self._instancers = instancers
+        self._mark = self._mark_of(depsgraph, world)
+
+    @cached_property
+    def keys(self) -> frozenset[str]:
+        """key_of lights, skins and instancers, those hidden in the view layer too; raises ReferenceError."""
+        return frozenset(map(key_of, (*self.read, *self._hidden, *self._instancers)))
+
+    def still_holds(self, depsgraph: bpy.types.Depsgraph) -> bool:
+        """Whether nothing of this was hidden, shown or deleted, and the scene's own settings are the same."""
+        try:
+            return self._mark_of(depsgraph, read_world(depsgraph)) == self._mark
+        except ReferenceError:
+            return False
+
+    def _mark_of(self, depsgraph: bpy.types.Depsgraph, world: World | None) -> tuple:
+        """What a reading depends on that no object reports; the same for a selection."""
+        scene, layer = depsgraph.scene, depsgraph.view_layer
+        return (
+            key_of(scene),
+            layer.name,
+            len(layer.objects),
+            scene.skinglow.occlusion,
+            output_target(scene),
+            working_space.working_space(),
+            world,
+            [obj.visible_get(view_layer=layer) for obj in (*self.read, *self._hidden)],
+            [_instances(obj, layer) for obj in self._instancers],
+        )
+
+    def evaluated(self, depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Object] | None:
+        """Lights and skins as they are evaluated now; None if one of them is gone."""
+        try:
+            found = [obj.evaluated_get(depsgraph) for obj in self.read]
+        except ReferenceError:
+            return None
+        return found if all(obj.is_evaluated for obj in found) else None
 
 
-def known_of(
-    depsgraph: bpy.types.Depsgraph,
-    read: Iterable[bpy.types.Object],
-    instancers: Iterable[bpy.types.Object],
-    instancing: frozenset[str],
-) -> Known | None:
-    """What to remember of a pass; None for a render, whose depsgraph is looked at once, and where any object matters.
-
-    read        lights and skins of the view layer, original ones
-    instancers  objects that may have instances, original ones
-    """
-    if depsgraph.mode != "VIEWPORT" or depsgraph.scene.skinglow.occlusion:
-        return None
-    read = tuple(read)
-    # What is hidden may be in the depsgraph, as the parent of something, and is not reported when it is shown.
-    layer = depsgraph.view_layer
-    more = [o for o in layer.objects if o.type == "LIGHT" or (not o.visible_get(view_layer=layer) and may_instance(o))]
-    watched = tuple(dict.fromkeys((*read, *more, *instancers)))
-    mark = mark_of(depsgraph, watched)
-    return Known(read, watched, frozenset(map(key_of, watched)), instancing, mark)
+def _instances(obj: bpy.types.Object, layer: bpy.types.ViewLayer) -> tuple[bool, str, str | None]:
+    collection = obj.instance_collection
+    return obj.visible_get(view_layer=layer), obj.instance_type, key_of(collection) if collection is not None else None
 
 
 def may_instance(obj: bpy.types.Object) -> bool:
@@ -50,39 +81,3 @@ def may_instance(obj: bpy.types.Object) -> bool:
         return True
     modifiers = obj.modifiers
     return bool(modifiers) and any(modifier.type == "NODES" for modifier in modifiers)
-
-
-def mark_of(depsgraph: bpy.types.Depsgraph, watched: Iterable[bpy.types.Object]) -> tuple:
-    """What a reading depends on that no object reports; the same for a selection, another for what is hidden."""
-    scene, layer = depsgraph.scene, depsgraph.view_layer
-    return (
-        key_of(scene),
-        layer.name,
-        len(layer.objects),
-        scene.skinglow.occlusion,
-        output_target(scene),
-        working_space.working_space(),
-        read_world(depsgraph),
-        [(o.visible_get(view_layer=layer), o.instance_type, _key_of(o.instance_collection)) for o in watched],
-    )
-
-
-def _key_of(data: bpy.types.ID | None) -> str | None:
-    return key_of(data) if data is not None else None
-
-
-def still_holds(known: Known, depsgraph: bpy.types.Depsgraph) -> bool:
-    """Whether nothing that is watched was hidden, shown or deleted."""
-    try:
-        return mark_of(depsgraph, known.watched) == known.mark
-    except ReferenceError:
-        return False
-
-
-def evaluated_objects(known: Known, depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Object] | None:
-    """Lights and skins as they are evaluated now; None if one of them is gone."""
-    try:
-        found = [obj.evaluated_get(depsgraph) for obj in known.read]
-    except ReferenceError:
-        return None
-    return found if all(obj.is_evaluated for obj in found) else None

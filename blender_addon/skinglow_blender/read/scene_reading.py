@@ -12,7 +12,7 @@ from ..blender_version import output_target
 from ..identity import key_of, lasting_key_of
 from ..setting_values import as_typed
 from ..tissue_presets import TISSUE_SLIDERS
-from .known_objects import Known, evaluated_objects, known_of, may_instance
+from .known_objects import Known, may_instance
 from .measured_size import MEASURED_CONE, MEASURED_UNIT, scale_since_measured
 from .scene_lights import SceneLight, read_light
 from .scene_world import World, read_world
@@ -81,7 +81,7 @@ def read_scene(depsgraph: bpy.types.Depsgraph, known: Known | None = None) -> Sc
     known  what an earlier reading of this depsgraph found, if nothing that matters was added or removed since
     """
     found = _Found(depsgraph)
-    objects = evaluated_objects(known, depsgraph) if known is not None and not known.instancing else None
+    objects = known.evaluated(depsgraph) if known is not None and not known.instancing else None
     if objects is not None:
         for obj in objects:
             found.take(obj, obj.type, obj, None)
@@ -99,8 +99,12 @@ def read_scene(depsgraph: bpy.types.Depsgraph, known: Known | None = None) -> Sc
         for instance in depsgraph.object_instances:
             if instance.is_instance and found.take(instance.object, instance.object.type, instance, instance.parent):
                 instancing.add(key_of(instance.parent))
-    remembered = known_of(depsgraph, read, instancers, frozenset(instancing))
-    return SceneReading(found.lights, found.skins, read_world(depsgraph), known=remembered)
+    world = read_world(depsgraph)
+    known = None
+    # A render's depsgraph is read once; with Occlusion any object matters.
+    if depsgraph.mode == "VIEWPORT" and not depsgraph.scene.skinglow.occlusion:
+        known = Known(depsgraph, read, instancers, instancing, world)
+    return SceneReading(found.lights, found.skins, world, known=known)
 
 
 class _Found:
