@@ -10,4 +10,9 @@ extern "C" __attribute__((visibility("default"))) const char* __lsan_default_sup
     // OpenImageIO 2.4 loses the text of its own error when libpng jumps out of a file that ends too early.
     return "leak:PNGInput::PngReadCallback\n";
 }
+
+extern "C" __attribute__((visibility("default"))) const char* __tsan_default_suppressions() {
+    // Debian's Embree and TBB are not instrumented: the sanitizer cannot see how they synchronize.
+    return "called_from_lib:libembree3.so\nrace:libembree3.so\nrace:libtbb.so\n";
+}
 // NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)

@@ -23,7 +23,7 @@ from .commands.thickness_map import BakedThickness
 from .errors import SkinError
 from .live import handlers
 from .live.live_update import Rebuilt
-from .show import material_settings, subsurface
+from .show import image_pairs, material_settings, subsurface
 from .ui import (
     farm_operators,
     freeze_operators,
@@ -90,6 +90,7 @@ __all__ = [
 _PARTS = (
     bundled_core,
     skin_settings,
+    image_pairs,
     scene_settings,
     preferences,
     material_settings,

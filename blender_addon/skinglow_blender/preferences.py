@@ -4,7 +4,8 @@
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
-from .skin_settings import LIGHTINGS, MODES, PRESETS
+from .setting_choices import LIGHTINGS, MODES
+from .tissue_presets import PRESETS
 
 #: Where this add-on is installed; a script that imports the package has no preferences.
 PACKAGE = __package__

@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from .commands.freezing import Freezing
     from .live.newest_wins import NewestWins
     from .live.shape_update import ShapeState
+    from .read.known_objects import Known
     from .read.scene_reading import SceneReading
     from .read.shown_mesh import ShownMeshes
     from .show.lut_image import Atlas
@@ -40,6 +41,12 @@ class Session:
         self.render_frame: float | None = None
         #: What the last update read, and of which depsgraph; None if undo or load made its objects invalid.
         self.reading: tuple[int, SceneReading] | None = None
+        #: Address of a depsgraph to the objects of it that matter, as of its last reading.
+        self.known: dict[int, Known] = {}
+        #: Whether the file was seen to have no skin; None: not looked at since data was added.
+        self.has_none: bool | None = None
+        #: Material to the skin node groups it had when it was last reported to have changed.
+        self.material_groups: dict[str, frozenset[str]] = {}
         #: Keys of the objects that skins take their reference point from.
         self.reference_objects: frozenset[str] = frozenset()
         #: Number of updates, one per edit: anything derived at a lower number may be out of date.
@@ -75,7 +82,9 @@ class Session:
         self.faults.clear()
         self.marks.clear()
         self.base_images.clear()
-        self.reading = None
+        self.known.clear()
+        self.material_groups.clear()
+        self.reading = self.has_none = None
 
     def forget(self) -> None:
         """Resets to the state before the first update; measuring, freezing and light through shapes go on."""

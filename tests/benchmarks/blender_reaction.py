@@ -9,7 +9,7 @@ For 1 and 16 lights and 1 and 8 skins, 300 changes each: medians in microseconds
     reading   the walk through the depsgraph and the signatures
     core      weights and recolored tables
     pixels    rows into the image, the image into the node
-    whole     all of update(), which is what a handler does; Blender's own evaluation and redraw come on top
+    whole     all of update(), by what is known as in a handler; Blender's own evaluation and redraw come on top
     idle      update() where nothing changed
 and, last, whether any datablock was left behind. Prints a table, and JSON on one line.
 """
@@ -29,6 +29,7 @@ if os.environ.get("SKINGLOW_SITE"):
 import bpy  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
 from skinglow_blender.live import handlers, live_update  # noqa: E402
+from skinglow_blender.session import SESSION  # noqa: E402
 from skinglow_blender.show import lut_image  # noqa: E402
 from skinglow_blender.table import skin_tables  # noqa: E402
 
@@ -99,7 +100,7 @@ def measure(light_count: int, skins: int) -> dict[str, float]:
     def whole(i: int) -> float:
         graph = change(i)
         started = time.perf_counter()
-        rebuilt = live_update.update_scene(graph)
+        rebuilt = live_update.update_scene(graph, known=SESSION.known.get(graph.as_pointer()))
         spent = time.perf_counter() - started
         assert len(rebuilt) == skins
         return spent
@@ -107,7 +108,7 @@ def measure(light_count: int, skins: int) -> dict[str, float]:
     def idle(_i: int) -> float:
         graph = bpy.context.evaluated_depsgraph_get()
         started = time.perf_counter()
-        assert not live_update.update_scene(graph)
+        assert not live_update.update_scene(graph, known=SESSION.known.get(graph.as_pointer()))
         return time.perf_counter() - started
 
     found = {"lights": light_count, "skins": skins, "whole": median(whole), "idle": median(idle)}

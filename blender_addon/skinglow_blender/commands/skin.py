@@ -15,8 +15,10 @@ from ..live.live_update import Rebuilt, update_scene
 from ..live.shape_tiles import store_missing_tiles
 from ..live.shape_update import ShapeReport, shape_report
 from ..read import measured_geometry, working_space, world_image
+from ..read.file_skins import skins_of_file
 from ..read.scene_reading import MEDIUM_PROPERTY, ROW_PROPERTY, read_skin
 from ..session import SESSION
+from ..setting_values import applied
 from ..show.frozen import is_frozen, read_frozen
 from ..show.lut_image import group_layout, image_pair, read_row, remove_images, shown_image
 from ..show.mask import fill_mask, remove_masks, store_masks
@@ -24,7 +26,7 @@ from ..show.material_settings import clear_material, reset_material
 from ..show.skin_group import clear
 from ..show.skin_material import add_to_materials, choose_slots, chosen_materials
 from ..show.tile_image import OBJECT_PROPERTIES, TILES
-from ..skin_settings import MEASURING_NAMES, SETTING_NAMES, applied
+from ..skin_settings import MEASURING_NAMES, SETTING_NAMES
 from ..table.lut_layout import shown_colors
 from ..table.skin_tables import Table
 from ..thickness import thickness_attribute
@@ -144,7 +146,7 @@ def update(depsgraph: bpy.types.Depsgraph) -> list[Rebuilt]:
     are updated; a skin with a fault keeps its last good lookup.
     """
     world_image.forget_edited()
-    if depsgraph.mode == "VIEWPORT" and not SESSION.rendering and store_missing_tiles():
+    if depsgraph.mode == "VIEWPORT" and not SESSION.rendering and store_missing_tiles(skins_of_file()):
         depsgraph.update()
     rebuilt = update_scene(depsgraph)
     if SESSION.faults:
@@ -199,7 +201,7 @@ def remove_skin(obj: bpy.types.Object) -> None:
     shape_update.forget({key_of(obj)})
     for name in OBJECT_PROPERTIES:
         obj.pop(name, None)
-    skins = [o for o in bpy.data.objects if o.skinglow.enabled]
+    skins = skins_of_file()
     if not any(o.data == obj.data for o in skins):
         thickness_attribute.remove(obj.data)
         remove_tiles(obj.data)

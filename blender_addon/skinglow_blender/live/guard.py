@@ -13,6 +13,9 @@ from ..errors import SkinError
 from ..session import SESSION
 from ..show.lut_image import GROUP_PROPERTY
 
+#: Blender 4.3 and later report when data was appended or linked; before, that node groups were evaluated.
+REPORTS_IMPORTS = hasattr(bpy.app.handlers, "blend_import_post")
+
 
 @contextmanager
 def faults_shown() -> Iterator[None]:
@@ -44,6 +47,15 @@ def _show(error: Exception) -> None:
     traceback.print_exception(error)
 
 
-def has_skins() -> bool:
-    """Whether the file has, or had since the last update, a skin; costs nothing in those that have none."""
-    return bool(SESSION.owners or SESSION.faults) or any(GROUP_PROPERTY in tree for tree in bpy.data.node_groups)
+def has_skins(depsgraph: bpy.types.Depsgraph | None = None) -> bool:
+    """Whether the file has, or had since the last update, a skin; costs nothing in those that have none.
+
+    depsgraph  what was evaluated just now; None: the file's node groups are looked at in any case
+    """
+    if SESSION.owners or SESSION.faults:
+        return True
+    if depsgraph is None or SESSION.has_none is None or (not REPORTS_IMPORTS and depsgraph.id_type_updated("NODETREE")):
+        SESSION.has_none = not any(GROUP_PROPERTY in tree for tree in bpy.data.node_groups)
+        if SESSION.has_none:
+            SESSION.known.clear()
+    return not SESSION.has_none

@@ -9,6 +9,7 @@ import bpy
 from ..identity import key_of
 from ..preferences import follows_lights
 from ..read import world_image
+from ..read.file_skins import skins_of_file
 from ..session import SESSION
 from ..show.group_following import follow_materials, remove_orphans, separate_copies
 from ..show.lut_image import ROWS, skin_groups
@@ -17,7 +18,7 @@ from ..show.tile_image import TILES
 from ..table import occlusion
 from . import shape_answers, shape_update
 from .file_upgrade import upgrade
-from .guard import guarded, has_skins
+from .guard import REPORTS_IMPORTS, guarded, has_skins
 from .live_update import update_scene
 from .relevant_updates import changes_of
 from .shape_tiles import store_missing_tiles
@@ -27,9 +28,16 @@ from .windows import follow_windows, is_shown, stop_following_windows, update_sh
 @guarded
 def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Called after an edit."""
-    if not has_skins() or not follows_lights():
+    if not has_skins(depsgraph):
         return
-    changes = changes_of(depsgraph)
+    # What is known is put back where it still holds.
+    address = depsgraph.as_pointer()
+    known = SESSION.known.pop(address, None)
+    if not follows_lights():
+        return
+    changes = changes_of(depsgraph, known)
+    if not changes.objects and known is not None:
+        SESSION.known[address] = known
     # Asked last: most edits concern no skin.
     if not any(changes) or not is_shown(depsgraph):
         return
@@ -40,23 +48,27 @@ def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
         world_image.forget(key)
     if not known_images and not changes.skins and not moved:
         return
-    if update_shown(depsgraph):
+    if update_shown(depsgraph, SESSION.known.get(address)):
         update_windows_soon()
     if bpy.app.background and not SESSION.rendering:
-        store_missing_tiles()
+        store_missing_tiles(obj for obj, _skin in SESSION.reading[1].skins)
 
 
 @guarded
 def on_frame_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Called after a frame change: in an animation render this is the only depsgraph with that frame's lights."""
-    if not has_skins():
+    if not has_skins(depsgraph):
         return
     if depsgraph.mode == "RENDER" and SESSION.render_frame not in (None, scene.frame_current_final):
         # A motion blur step. The lookup is that of the frame itself; writing now would overwrite it before the renderer
         # has read it.
         return
-    if is_shown(depsgraph):
-        update_shown(depsgraph)
+    known = SESSION.known.pop(depsgraph.as_pointer(), None)
+    if not is_shown(depsgraph):
+        return
+    if known is not None and changes_of(depsgraph, known, is_frame=True).objects:
+        known = None
+    update_shown(depsgraph, known)
 
 
 @guarded
@@ -88,10 +100,15 @@ def on_undo(_first: Any, _second: Any) -> None:  # noqa: ANN401
     The skins are tagged, so Blender evaluates and reports them. Evaluating here, before Blender does, can crash it.
     """
     SESSION.forget()
-    for obj in bpy.data.objects:
-        if obj.skinglow.enabled:
-            obj.update_tag(refresh={"OBJECT"})
+    for obj in skins_of_file():
+        obj.update_tag(refresh={"OBJECT"})
     update_windows_soon()
+
+
+@guarded
+def on_import(_context: Any, _unused: None) -> None:  # noqa: ANN401
+    """Called after data was appended, linked or pasted: skins may have come with it."""
+    SESSION.has_none = None
 
 
 def follow_weights(skins: Iterable[bpy.types.Object]) -> None:
@@ -114,7 +131,7 @@ def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
     follow_windows()  # loading clears subscriptions
     upgrade()
     separate_copies()
-    if bpy.context.view_layer is not None and any(obj.skinglow.enabled for obj in bpy.data.objects):
+    if bpy.context.view_layer is not None and skins_of_file():
         update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
     remove_orphans()
 
@@ -148,6 +165,10 @@ HANDLERS = (
     ("redo_post", on_undo),
     ("save_pre", on_save),
 )
+
+
+if REPORTS_IMPORTS:
+    HANDLERS += (("blend_import_post", on_import),)
 
 
 def register() -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from ..errors import SkinError
 from ..identity import key_of
 from ..read import working_space
+from ..read.known_objects import Known
 from ..read.scene_lights import FIELDS
 from ..read.scene_reading import ROW_PROPERTY, SceneReading, Skin, lit_per_pixel, read_scene
 from ..session import SESSION
@@ -45,16 +46,23 @@ def update_scene(
     depsgraph: bpy.types.Depsgraph,
     only_live: bool = False,
     left_out: Callable[[bpy.types.Object], bool] | None = None,
+    known: Known | None = None,
 ) -> list[Rebuilt]:
     """Recomputes and shows what changed in this depsgraph. Faults go to SESSION.faults and do not affect other skins.
 
     A skin with a fault keeps its last good table. With only_live, skins that are not live keep the table they show.
     left_out  whether another view layer decides what a skin shows
+    known     what an earlier reading of this depsgraph found, if that still holds; None: every object is looked at
     """
     SESSION.updates += 1
     faults: dict[str, str] = {}
-    reading = with_visible_fractions(read_scene(depsgraph), depsgraph, faults)
-    SESSION.reading = (depsgraph.as_pointer(), reading)
+    reading = with_visible_fractions(read_scene(depsgraph, known), depsgraph, faults)
+    address = depsgraph.as_pointer()
+    SESSION.reading = (address, reading)
+    if reading.known is not None:
+        SESSION.known[address] = reading.known
+    else:
+        SESSION.known.pop(address, None)
     SESSION.reference_objects = frozenset(skin.reference for _obj, skin in reading.skins if skin.reference)
     rebuilt: list[Rebuilt] = []
     groups: dict[str, tuple[bpy.types.NodeTree, list[tuple[bpy.types.Object, Skin]]]] = {}

@@ -6,6 +6,7 @@ from itertools import count
 import bpy
 
 from ..identity import key_of
+from ..read.file_skins import skins_of_file
 from ..session import SESSION
 from ..show.frozen import is_frozen
 from .guard import faults_shown
@@ -61,9 +62,7 @@ def take_answers() -> list[str]:
 
 def _show(new: list[str], faulty: list[str]) -> None:
     groups: dict[bpy.types.NodeTree, dict] = {}
-    for obj in bpy.data.objects:
-        if obj.type != "MESH" or not obj.skinglow.enabled:
-            continue
+    for obj in skins_of_file():
         key = key_of(obj)
         if key in faulty:
             SESSION.faults[key] = f"{obj.name}: {state_of(key, 'VIEWPORT').fault}"

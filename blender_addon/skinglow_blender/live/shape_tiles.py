@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes what is known of the light through shapes into the tiles that show it."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import bpy
 
@@ -38,12 +38,12 @@ def hide_tiles(obj: bpy.types.Object) -> None:
     show_tiles(obj, None)
 
 
-def store_missing_tiles() -> bool:
-    """Gives tiles to the meshes of skins that became lit through their shape, or whose thickness was stored anew.
+def store_missing_tiles(skins: Iterable[bpy.types.Object]) -> bool:
+    """Gives tiles to the meshes of those skins that became lit through their shape, or whose thickness was stored anew.
 
     Those whose faces were edited are left to Repair, which measures them too. Returns whether any was given some.
     """
-    return any([_store(obj) for obj in bpy.data.objects if obj.type == "MESH" and obj.skinglow.enabled])
+    return any([_store(obj) for obj in skins])
 
 
 def _store(obj: bpy.types.Object) -> bool:

@@ -7,8 +7,10 @@ update of one would undo that of the other, without end.
 
 import bpy
 
+from ..read.file_skins import skins_of_file
+from ..read.known_objects import Known
 from ..session import SESSION
-from ..show.mask import store_all_masks
+from ..show.mask import mask_groups, store_masks
 from .guard import faults_shown, has_skins
 from .live_update import Rebuilt, update_scene
 from .shape_tiles import store_missing_tiles
@@ -36,15 +38,19 @@ def is_shown(depsgraph: bpy.types.Depsgraph) -> bool:
     return depsgraph.mode == "RENDER" or depsgraph.view_layer in shown_layers()
 
 
-def update_shown(depsgraph: bpy.types.Depsgraph) -> list[Rebuilt]:
-    """Updates the live skins of a depsgraph, but for those that the layer of an earlier window shows."""
+def update_shown(depsgraph: bpy.types.Depsgraph, known: Known | None = None) -> list[Rebuilt]:
+    """Updates the live skins of a depsgraph, but for those that the layer of an earlier window shows.
+
+    known  what an earlier reading of it found, if that still holds
+    """
     layers = shown_layers()
     if depsgraph.mode == "RENDER" or len(layers) == 1:
-        return update_scene(depsgraph, only_live=True)
+        return update_scene(depsgraph, only_live=True, known=known)
     earlier = layers[: layers.index(depsgraph.view_layer)]
     return update_scene(
         depsgraph,
         only_live=True,
+        known=known,
         left_out=lambda obj: any(obj.visible_get(view_layer=layer) for layer in earlier),
     )
 
@@ -66,8 +72,11 @@ def update_windows() -> float | None:
     if SESSION.rendering:
         return DELAY
     with faults_shown():
-        store_all_masks()
-        store_missing_tiles()
+        skins = skins_of_file()
+        for obj in skins:
+            if mask_groups(obj):
+                store_masks(obj)
+        store_missing_tiles(skins)
         for layer in shown_layers():
             if layer.depsgraph is not None:
                 update_shown(layer.depsgraph)

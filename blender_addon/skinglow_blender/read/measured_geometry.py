@@ -13,7 +13,7 @@ import numpy as np
 from mathutils.kdtree import KDTree
 
 from ..errors import SkinError
-from ..skin_settings import as_typed
+from ..setting_values import as_typed
 from .mesh_reading import evaluated_mesh, triangles_of, vertices_of
 from .scene_reading import MM_PER_METER
 

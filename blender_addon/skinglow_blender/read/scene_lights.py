@@ -94,7 +94,7 @@ def read_light(
     casts_shadows = blender_version.light_casts_shadows(light)
     object_name = obj.name if instancer else name
     shown_by = (instancer or obj).original
-    note = note or placement.note or gamut_note
+    note = note or placement.note or gamut_note or (_eevee_note(light) if target == "EEVEE" else "")
     return SceneLight(name, object_name, shown_by, signature, receivers, excluded, unlit_reason, note, casts_shadows)
 
 
@@ -189,6 +189,16 @@ def _unlit_reason(
     if kind != "POINT" and direction == (0.0, 0.0, 0.0):
         return "its scale is 0, so it has no direction"
     return ""
+
+
+#: What EEVEE alone follows, and its neutral values.
+EEVEE_ONLY = (("diffuse_factor", 1.0), ("transmission_factor", 1.0), ("use_custom_distance", False))
+
+
+def _eevee_note(light: bpy.types.Light) -> str:
+    if all(getattr(light, name, neutral) == neutral for name, neutral in EEVEE_ONLY):
+        return ""
+    return "its diffuse and transmission factors and its custom distance, which EEVEE alone follows, are ignored"
 
 
 def _linked_objects(obj: bpy.types.Object) -> tuple[frozenset[str] | None, frozenset[str]]:

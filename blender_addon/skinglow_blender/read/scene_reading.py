@@ -10,7 +10,9 @@ from mathutils import Matrix, Vector
 
 from ..blender_version import output_target
 from ..identity import key_of, lasting_key_of
-from ..skin_settings import TISSUE_SLIDERS, as_typed
+from ..setting_values import as_typed
+from ..tissue_presets import TISSUE_SLIDERS
+from .known_objects import Known, may_instance
 from .measured_size import MEASURED_CONE, MEASURED_UNIT, scale_since_measured
 from .scene_lights import SceneLight, read_light
 from .scene_world import World, read_world
@@ -70,51 +72,75 @@ class SceneReading(NamedTuple):
     skins: list[tuple[bpy.types.Object, Skin]]  #: with their original objects; invalid after undo or load
     world: World | None
     occluders: Any = None  #: table.occlusion.Traced; None: nothing stands in the way of light
+    known: Known | None = None  #: for the next reading
 
 
-def read_scene(depsgraph: bpy.types.Depsgraph) -> SceneReading:
-    """Reads a depsgraph. It holds no hidden objects, and viewport and render have different ones."""
-    lights: list[SceneLight] = []
-    skins: list[tuple[bpy.types.Object, Skin]] = []
-    seen: set[str] = set()
-    may_instance = False
+def read_scene(depsgraph: bpy.types.Depsgraph, known: Known | None = None) -> SceneReading:
+    """Reads a depsgraph. It holds no hidden objects, and viewport and render have different ones.
 
-    target = output_target(depsgraph.scene)
-    layer = depsgraph.view_layer if depsgraph.mode == "VIEWPORT" else None
-
-    def is_visible(obj: bpy.types.Object) -> bool:
-        # Collections hidden in the viewport by their eye icon are still in the viewport's depsgraph.
-        return layer is None or obj.original.visible_get(view_layer=layer)
-
-    def take(obj: bpy.types.Object, kind: str, placed: bpy.types.Object, instancer: bpy.types.Object | None) -> None:
-        if kind == "LIGHT":
-            if is_visible(instancer or obj):
-                name = f"{obj.name} in {instancer.name}" if instancer else obj.name
-                lights.append(read_light(obj, placed.matrix_world, name, target, instancer))
-        elif kind == "MESH":
-            settings = obj.skinglow
-            if settings.enabled:
-                skin = _read_skin(obj, settings, placed.matrix_world)
-                if skin.key not in seen:
-                    seen.add(skin.key)
-                    skins.append((obj.original, skin))
-
+    known  what an earlier reading of this depsgraph found, if nothing that matters was added or removed since
+    """
+    found = _Found(depsgraph)
+    objects = known.evaluated(depsgraph) if known is not None and not known.instancing else None
+    if objects is not None:
+        for obj in objects:
+            found.take(obj, obj.type, obj, None)
+        return SceneReading(found.lights, found.skins, read_world(depsgraph), known=known)
     # Iterating over the instances of a scattered forest is slow: do so only if something in the scene instances.
+    read, instancers = [], []
     for obj in depsgraph.objects:
         kind = obj.type
-        take(obj, kind, obj, None)
-        may_instance = may_instance or obj.is_instancer or (kind != "LIGHT" and has_geometry_nodes(obj))
-    if may_instance:
+        if found.take(obj, kind, obj, None):
+            read.append(obj.original)
+        if kind != "LIGHT" and may_instance(obj):
+            instancers.append(obj.original)
+    instancing = set()
+    if instancers:
         for instance in depsgraph.object_instances:
-            if instance.is_instance:
-                take(instance.object, instance.object.type, instance, instance.parent)
-    return SceneReading(lights, skins, read_world(depsgraph))
+            if instance.is_instance and found.take(instance.object, instance.object.type, instance, instance.parent):
+                instancing.add(key_of(instance.parent))
+    world = read_world(depsgraph)
+    known = None
+    # A render's depsgraph is read once; with Occlusion any object matters.
+    if depsgraph.mode == "VIEWPORT" and not depsgraph.scene.skinglow.occlusion:
+        known = Known(depsgraph, read, instancers, instancing, world)
+    return SceneReading(found.lights, found.skins, world, known=known)
 
 
-def has_geometry_nodes(obj: bpy.types.Object) -> bool:
-    """Whether an object has a modifier with geometry nodes, which may instance anything."""
-    modifiers = obj.modifiers
-    return bool(modifiers) and any(modifier.type == "NODES" for modifier in modifiers)
+class _Found:
+    """Lights and skins as they are come across in a depsgraph."""
+
+    def __init__(self, depsgraph: bpy.types.Depsgraph) -> None:
+        self.lights: list[SceneLight] = []
+        self.skins: list[tuple[bpy.types.Object, Skin]] = []
+        self._seen: set[str] = set()
+        self._target = output_target(depsgraph.scene)
+        self._layer = depsgraph.view_layer if depsgraph.mode == "VIEWPORT" else None
+
+    def take(self, obj: bpy.types.Object, kind: str, placed: Any, instancer: bpy.types.Object | None) -> bool:  # noqa: ANN401
+        """Reads an object or an instance of one; returns whether it is a light or a skin.
+
+        placed  what has its world matrix: the object, or the instance
+        """
+        if kind == "LIGHT":
+            if self._is_visible(instancer or obj):
+                name = f"{obj.name} in {instancer.name}" if instancer else obj.name
+                self.lights.append(read_light(obj, placed.matrix_world, name, self._target, instancer))
+            return True
+        if kind != "MESH":
+            return False
+        settings = obj.skinglow
+        if not settings.enabled:
+            return False
+        skin = _read_skin(obj, settings, placed.matrix_world)
+        if skin.key not in self._seen:
+            self._seen.add(skin.key)
+            self.skins.append((obj.original, skin))
+        return True
+
+    def _is_visible(self, obj: bpy.types.Object) -> bool:
+        # Collections hidden in the viewport by their eye icon are still in the viewport's depsgraph.
+        return self._layer is None or obj.original.visible_get(view_layer=self._layer)
 
 
 def read_skin(obj: bpy.types.Object, matrix: Matrix) -> Skin:

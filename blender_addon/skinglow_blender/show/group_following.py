@@ -7,17 +7,23 @@ A skin has its row in the images of one node group. If it, or a mesh that it sha
 
 import bpy
 
+from ..identity import key_of
+from ..read.file_skins import skins_of_file
+from ..session import SESSION
 from .group_nodes import build_nodes, nodes_of
 from .group_sockets import replace_group
 from .image_pairs import SLOTS, delete_images
 from .lut_image import FROZEN_PROPERTY, ROWS, images_of, skin_groups
-from .skin_material import skin_node
+from .skin_material import skin_node, skin_nodes
 from .tile_image import TILES
 
 
-def may_change_groups(update: bpy.types.DepsgraphUpdate, kind: str) -> bool:
-    """Whether a reported change of an object of that type may have given a skin another material; a move cannot."""
-    return kind == "MESH" and (update.is_updated_geometry or update.is_updated_shading)
+def changes_groups(material: bpy.types.Material) -> bool:
+    """Whether a material that was reported to have changed may have other skin node groups than before."""
+    key, groups = key_of(material), frozenset(key_of(node.node_tree) for node in skin_nodes(material))
+    before = SESSION.material_groups.get(key)
+    SESSION.material_groups[key] = groups
+    return before != groups
 
 
 def follow_materials() -> bool:
@@ -25,7 +31,7 @@ def follow_materials() -> bool:
 
     Returns whether anything was moved.
     """
-    skins = [obj for obj in bpy.data.objects if obj.type == "MESH" and obj.skinglow.enabled]
+    skins = skins_of_file()
     again, moved = separate_copies(), True
     while moved:
         moved = any([_follow(obj) for obj in skins])

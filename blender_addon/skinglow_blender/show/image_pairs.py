@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 import bpy
 import numpy as np
+from bpy.props import PointerProperty
 
 from .. import blender_version
 from ..errors import SkinError
@@ -17,6 +18,18 @@ from ..read import working_space
 
 FIRST_ROWS = 16
 SLOTS = ("viewport_a", "viewport_b", "render_a", "render_b")
+
+
+class LutImages(bpy.types.PropertyGroup):
+    """The images of a skin node group, stored on each of them (why there are four is explained above).
+
+    Not stored on the node group: Blender miscounts the users of data that a node tree's properties point to.
+    """
+
+    viewport_a: PointerProperty(type=bpy.types.Image)
+    viewport_b: PointerProperty(type=bpy.types.Image)
+    render_a: PointerProperty(type=bpy.types.Image)
+    render_b: PointerProperty(type=bpy.types.Image)
 
 
 class GroupImages:
@@ -243,3 +256,15 @@ def read_pixels(image: bpy.types.Image) -> np.ndarray:
     pixels = np.empty(width * height * 4, np.float32)
     image.pixels.foreach_get(pixels)
     return pixels.reshape(height, width, 4)
+
+
+def register() -> None:
+    """Adds the pointers to Blender's images."""
+    bpy.utils.register_class(LutImages)
+    bpy.types.Image.skinglow = PointerProperty(type=LutImages, name="Skin Glow Images")
+
+
+def unregister() -> None:
+    """Removes them; what is stored in files remains there."""
+    del bpy.types.Image.skinglow
+    bpy.utils.unregister_class(LutImages)

@@ -96,13 +96,6 @@ def store_masks(obj: bpy.types.Object) -> None:
             mesh.update()
 
 
-def store_all_masks() -> None:
-    """The same for every skin of the file."""
-    for obj in bpy.data.objects:
-        if obj.type == "MESH" and obj.skinglow.enabled and mask_groups(obj):
-            store_masks(obj)
-
-
 def _weights(mesh: bpy.types.Mesh, index: int) -> np.ndarray:
     weights = np.zeros(len(mesh.vertices), np.float32)
     for i, vertex in enumerate(mesh.vertices):

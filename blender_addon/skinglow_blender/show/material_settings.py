@@ -7,6 +7,7 @@ Files store settings by property name: names must not change, labels may.
 import bpy
 from bpy.props import BoolProperty, EnumProperty, PointerProperty, StringProperty
 
+from ..read.file_skins import skins_of_file
 from .mask import fill_mask, remove_mask_nodes, store_masks
 from .skin_material import insert, remove_from_material, skin_node
 from .subsurface import follow_sockets, restore_subsurface
@@ -38,8 +39,7 @@ def _mask_changed(settings: "MaterialSettings", _context: bpy.types.Context) -> 
 
 
 def _skins_with(material: bpy.types.Material) -> list[bpy.types.Object]:
-    skins = (obj for obj in bpy.data.objects if obj.type == "MESH" and obj.skinglow.enabled)
-    return [obj for obj in skins if any(slot.material == material for slot in obj.material_slots)]
+    return [obj for obj in skins_of_file() if any(slot.material == material for slot in obj.material_slots)]
 
 
 class MaterialSettings(bpy.types.PropertyGroup):

@@ -26,6 +26,8 @@ TILE_PROPERTY = "skinglow_tiles"
 FIRST_TEXEL_PROPERTY, TEXEL_SIZE_PROPERTY = "skinglow_first_texel", "skinglow_texel_size"
 OBJECT_PROPERTIES = (TILE_PROPERTY, FIRST_TEXEL_PROPERTY, TEXEL_SIZE_PROPERTY)
 DARK = (0.0, 0.0, 0.0, 0.0)
+#: Of a skin that has no rows.
+NO_RANGE = (-1, -1)
 
 
 def tile_nodes(group: bpy.types.NodeTree) -> list[bpy.types.Node]:
@@ -87,7 +89,8 @@ def place_tiles(group: bpy.types.NodeTree, heights: Mapping[bpy.types.Object, in
     wanted = {key_of(obj): height for obj, height in heights.items()}
     if any(placed.get(key, (0, -1))[1] != height for key, height in wanted.items()):
         others = [o for o in bpy.data.objects if o.skinglow.group == group and o not in heights and TILE_PROPERTY in o]
-        taken = [_stored_range(obj, placed) for obj in others if obj.skinglow.enabled]
+        ranges = [_stored_range(obj, placed) for obj in others if obj.skinglow.enabled]
+        taken = [each for each in ranges if each != NO_RANGE]
         there = max((image.size[1] for image in TILES.all_of(group)), default=0)
         # By row: it stays, so that a copy moves and not the one that was copied.
         for obj in sorted(heights, key=lambda obj: (key_of(obj) not in placed, obj.skinglow.row)):
@@ -104,13 +107,13 @@ def place_tiles(group: bpy.types.NodeTree, heights: Mapping[bpy.types.Object, in
 
 
 def _stored_range(obj: bpy.types.Object, placed: Mapping[str, tuple[int, int]]) -> tuple[int, int]:
-    """First row and the one behind the last, as far as they are known; (-1, -1): none."""
+    """First row and the one behind the last, as far as they are known, or NO_RANGE."""
     if key_of(obj) in placed:
         first, height = placed[key_of(obj)]
         return first, first + height
     stored = obj.get(TILE_PROPERTY)
     if stored is None or stored[1] == 0.0:
-        return -1, -1
+        return NO_RANGE
     return int(stored[0]), int(stored[0]) + rows_of(obj.data)
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..errors import core
 from ..read.shown_mesh import BodyMesh, Frame
-from ..skin_settings import TISSUE_SLIDERS
+from ..tissue_presets import TISSUE_SLIDERS
 
 #: How a coarse answer is solved, which is seen while a light moves: some 8 % off the full one. The second re-entry
 #: takes half as long again, for 1 %; without any it would be 40 % off.

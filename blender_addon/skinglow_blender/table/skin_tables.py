@@ -12,7 +12,7 @@ from ..read.scene_lights import SceneLight, make_light
 from ..read.scene_reading import Skin
 from ..read.scene_world import World
 from ..session import SESSION
-from ..skin_settings import TISSUE_SLIDERS
+from ..tissue_presets import TISSUE_SLIDERS
 from .lut_layout import MAX_TERMS, Layout, layout_of
 
 #: The largest pixel value of a float image.

@@ -149,10 +149,17 @@ def _draw_details(
         column.label(text=row.name, icon=_icon_of(row.kind))
         column.label(text=f"RGB  {numbers}{' W/m^2' if physical else ''}", icon="BLANK1")
         distant = {"SUN": "at infinite distance", "WORLD": "from all directions"}
-        where = distant.get(row.kind, f"at a distance of {row.distance:.4g} units")
+        where = distant.get(row.kind, f"at a distance of {length_text(row.distance, context.scene)}")
         draw_wrapped(column, f"{row.share:.1%} of all light, {where}", context, icon="BLANK1")
     if row.note:
         draw_wrapped(column, row.note, context, icon="ERROR")
+
+
+def length_text(length: float, scene: bpy.types.Scene) -> str:
+    """A length of the scene as Blender writes it, in the units of the scene."""
+    units = scene.unit_settings
+    text = bpy.utils.units.to_string(units.system, "LENGTH", length * units.scale_length, precision=4)
+    return text if units.system != "NONE" else f"{length:.4g}"
 
 
 CLASSES = (SKINGLOW_UL_lights, SKINGLOW_PT_sidebar_lights, SKINGLOW_PT_object_lights)

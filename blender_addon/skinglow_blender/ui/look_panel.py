@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..skin_settings import TISSUE_SLIDERS
+from ..tissue_presets import TISSUE_SLIDERS
 from .locations import InObjectProperties, InSidebar, SkinPanel
 from .presets import draw_presets
 

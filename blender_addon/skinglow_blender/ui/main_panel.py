@@ -4,6 +4,7 @@
 import bpy
 
 from ..commands.health import FREEZE_AGAIN, FREEZE_MORE, quick_faults
+from ..identity import key_of
 from ..read.measured_geometry import unit_mm
 from ..session import SESSION
 from ..show.frozen import is_frozen
@@ -25,10 +26,7 @@ class _Main:
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         obj = context.object
-        for fault in SESSION.faults.values():
-            box = layout.box()
-            box.alert = True
-            draw_wrapped(box.column(align=True), fault, context, icon="ERROR")
+        _draw_faults_of_update(layout, obj, context)
         if SESSION.measuring is not None:
             _draw_progress(layout)
         if not is_skin(obj):
@@ -46,6 +44,23 @@ class _Main:
             return
         column.prop(obj.skinglow, "live", toggle=True)
         column.operator("skinglow.update", text="Update Now")
+
+
+def _draw_faults_of_update(
+    layout: bpy.types.UILayout, obj: bpy.types.Object | None, context: bpy.types.Context
+) -> None:
+    """What went wrong in the last update: with this object or as a whole, and the way to other skins with faults."""
+    shown = ("*", key_of(obj) if obj is not None else "")
+    for fault in [SESSION.faults[key] for key in shown if key in SESSION.faults]:
+        box = layout.box()
+        box.alert = True
+        draw_wrapped(box.column(align=True), fault, context, icon="ERROR")
+    others = len(SESSION.faults.keys() - set(shown))
+    if others:
+        row = layout.row()
+        row.alert = True
+        text = "Select Another Skin with a Fault" if others == 1 else f"Select One of {others} Skins with Faults"
+        row.operator("skinglow.select_faulty", text=text, icon="ERROR")
 
 
 def _draw_faults(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context) -> None:

@@ -10,10 +10,11 @@ from ..identity import HAS_UID, key_of
 from ..preferences import of_new_skins
 from ..read.measured_geometry import Geometry, read_geometry
 from ..session import SESSION
-from ..skin_settings import LIGHTINGS, MODES, PRESETS
+from ..setting_choices import LIGHTINGS, MODES
 from ..thickness import thickness_attribute
 from ..thickness.measuring import Measuring
 from ..thickness.tile_attribute import ensure_tiles
+from ..tissue_presets import PRESETS
 from . import slot_choice
 from .operators import SKIN, may_act, selected_meshes, selected_skins
 

@@ -199,12 +199,39 @@ class SKINGLOW_OT_select_light(_SkinOperator, bpy.types.Operator):  # noqa: N801
         return self.attempt(select)
 
 
+class SKINGLOW_OT_select_faulty(_SkinOperator, bpy.types.Operator):  # noqa: N801
+    """Goes to a skin with which something was wrong in the last update."""
+
+    bl_idname = "skinglow.select_faulty"
+    bl_label = "Select Skin with a Fault"
+    bl_description = "Make another skin active that could not be updated; its panel says why"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return may_act(cls, context, found=bool(SESSION.faults.keys() - {"*"}), what="No skin has a fault")
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        def select() -> str:
+            others = [obj for obj in context.view_layer.objects if obj != context.object and obj.visible_get()]
+            found = next((obj for obj in others if key_of(obj) in SESSION.faults), None)
+            if found is None:
+                raise SkinError("The skins with faults are hidden, or not in this view layer")
+            for obj in context.selected_objects:
+                obj.select_set(False)
+            found.select_set(True)
+            context.view_layer.objects.active = found
+            return SESSION.faults[key_of(found)]
+
+        return self.attempt(select)
+
+
 CLASSES = (
     SKINGLOW_OT_remove,
     SKINGLOW_OT_repair,
     SKINGLOW_OT_reset,
     SKINGLOW_OT_update,
     SKINGLOW_OT_select_light,
+    SKINGLOW_OT_select_faulty,
 )
 
 

@@ -5,7 +5,7 @@ import bpy
 from bl_operators.presets import AddPresetBase
 from bpy.props import EnumProperty
 
-from ..skin_settings import PRESETS, TISSUE_SLIDERS
+from ..tissue_presets import PRESETS, TISSUE_SLIDERS
 from .locations import is_skin
 
 

@@ -147,3 +147,20 @@ def check_entries_in_blenders_menus(_work):
     finally:
         sb.register()
     assert len(ours()) == len(menus.ENTRIES)
+
+
+def check_select_a_skin_with_a_fault(_work):
+    add_light("Key")
+    own, other = patch("Own"), patch("Other", location=(3.0, 0.0, 0.0))
+    for obj in (own, other):
+        sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
+    bpy.context.view_layer.objects.active = own
+    refused(RuntimeError, "No skin has a fault", bpy.ops.skinglow.select_faulty)
+    other.skinglow.base = "IMAGE"
+    depsgraph()
+    bpy.ops.skinglow.select_faulty()
+    assert bpy.context.object == other and other.select_get() and not own.select_get()
+    # What is hidden is not updated, and so has no fault.
+    other.hide_set(True)
+    depsgraph()
+    refused(RuntimeError, "No skin has a fault", bpy.ops.skinglow.select_faulty)

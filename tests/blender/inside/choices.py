@@ -6,7 +6,7 @@ import skinglow_blender as sb
 from skinglow_blender import preferences
 from skinglow_blender.live import file_upgrade
 from skinglow_blender.show.lut_image import GROUP_PROPERTY
-from skinglow_blender.skin_settings import PRESETS, TISSUE_SLIDERS
+from skinglow_blender.tissue_presets import PRESETS, TISSUE_SLIDERS
 
 from inside.scenes import add_light, depsgraph, patch
 

@@ -8,6 +8,7 @@ import skinglow_blender as sb
 from skinglow_blender.identity import key_of
 from skinglow_blender.session import SESSION
 from skinglow_blender.ui import light_list
+from skinglow_blender.ui.lights_panel import length_text
 
 from inside.scenes import add_light, depsgraph, patch
 
@@ -134,3 +135,13 @@ def check_unregistering_leaves_no_list(_work):
     finally:
         sb.register()
     assert len(bpy.context.window_manager.skinglow_lists) == 0
+
+
+def check_distances_in_units_of_the_scene(_work):
+    units = bpy.context.scene.unit_settings
+    units.system, units.scale_length = "METRIC", 0.001
+    assert length_text(2.516, bpy.context.scene) == "2.516 mm"
+    units.scale_length = 1.0
+    assert length_text(0.21134567, bpy.context.scene) == "21.13 cm"
+    units.system = "NONE"
+    assert length_text(0.21134567, bpy.context.scene) == "0.2113"

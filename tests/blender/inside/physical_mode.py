@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import skinglow as sg
 import skinglow_blender as sb
-from skinglow_blender import skin_settings
+from skinglow_blender import skin_settings, tissue_presets
 
 from inside.scenes import BLOOD, add_light, assert_shows, depsgraph, patch, weight
 
@@ -47,7 +47,7 @@ def check_sliders_and_presets(_work):
     state = sb.make_skin(obj, thickness=THIN, mode="physical", preset="ear", melanin_fraction=0.1)
     assert state.mode == "PHYSICAL" and obj.skinglow.preset == "CUSTOM"
     ear = sg.TISSUE_PRESETS["ear"]
-    parameters = {name: getattr(ear, name) for name in skin_settings.TISSUE_SLIDERS}
+    parameters = {name: getattr(ear, name) for name in tissue_presets.TISSUE_SLIDERS}
     parameters["melanin_fraction"] = 0.1
     assert_shows(obj, physical_table(sg.Tissue(**parameters), [light]), ulps=4)
     obj.skinglow.blood_fraction = parameters["blood_fraction"] = 0.05
@@ -61,7 +61,7 @@ def check_sliders_and_presets(_work):
 def check_sliders_are_the_cores(_work):
     """Same names, defaults, ranges and presets as the core has."""
     properties = skin_settings.SkinSettings.bl_rna.properties
-    assert set(skin_settings.TISSUE_SLIDERS) == set(sg.TISSUE_PARAMETERS)
+    assert set(tissue_presets.TISSUE_SLIDERS) == set(sg.TISSUE_PARAMETERS)
     for name, (default, least, most, *_) in sg.TISSUE_PARAMETERS.items():
         found = [properties[name].default, properties[name].hard_min, properties[name].hard_max]
         np.testing.assert_allclose(found, [default, least, most], rtol=1e-6)

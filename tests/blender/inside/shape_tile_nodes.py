@@ -125,6 +125,11 @@ def check_rows_of_tiles(_work):
         rows = place_tiles(group, {left: height, right: 40, copy: height})
         assert rows[keys[0]] == 0 and rows[keys[1]] >= height
         assert {tuple(image.size) for image in TILES.all_of(group)} == {(1024, 64)}
+        # A skin that shows no tiles has no rows.
+        show_tiles(left, None)
+        sb.session.SESSION.forget_tables()
+        copy.pop(TILE_PROPERTY)
+        assert min(place_tiles(group, {copy: height}).values()) >= 0
 
 
 def check_saved_and_removed(work):
