@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 import bpy
 
 from ..commands.povray_export import export_povray
+from ..commands.povray_pictures import materials_of_skin
 from ..commands.povray_run import povray_program, run_povray, run_program
-from ..commands.povray_scene import materials_of_skin
 from ..commands.skin import skin_settings_of
 from ..errors import SkinError
 from ..live.live_update import update_scene
@@ -25,8 +25,8 @@ from .rigs import Rig, light_objects, lit_by, make_ready
 
 MODES = ("existing", "paper", "physical")
 ALL_LIGHTS = "all lights"
-#: The narrowest filter that Cycles takes, in pixels. Each pixel is one ray through its center, the same in both programs:
-#: of glow in a line thinner than a pixel, several samples at places of their own see different parts.
+#: The narrowest filter that Cycles takes, in pixels. Each pixel is one ray through its center, the same in both
+#: programs: of glow in a line thinner than a pixel, several samples at places of their own see different parts.
 FILTER_WIDTH = 0.01
 
 
@@ -48,9 +48,10 @@ def compare_with_povray(
     """Renders the light through a skin by Cycles and by POV-Ray, in each mode, under all lights and each alone.
 
     POV-Ray computes the lookup itself. Both programs have the scene's camera and one ray through the center of each
-    pixel; the skin is lit per object, and everything else is hidden. Writes report.html and report.json, and for each comparison both pictures
-    (linear EXR), the POV-Ray scene, and a PNG of both beside the heat map. Without POV-Ray, or without the program
-    `skinglow`, which compares, all other files are written, and the notes say so. The scene is left as it was.
+    pixel; the skin is lit per object, and everything else is hidden. Writes report.html and report.json, and for each
+    comparison both pictures (linear EXR), the POV-Ray scene, and a PNG of both beside the heat map. Without POV-Ray, or
+    without the program `skinglow`, which compares, all other files are written, and the notes say so. The scene is left
+    as it was.
     """
     skin_settings_of(obj)
     unknown = set(modes := tuple(modes)) - set(MODES)

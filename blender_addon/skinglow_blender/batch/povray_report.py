@@ -20,8 +20,8 @@ HTML = """<!DOCTYPE html>
 </body></html>
 """
 EXPLANATION = (
-    "Differences in linear light where the skin is, with one ray through the center of each pixel; an RMS above 1/255 is "
-    "red. Pixels next to a silhouette are left out: their share is below 'edges'. Percentiles are of the largest "
+    "Differences in linear light where the skin is, with one ray through the center of each pixel; an RMS above 1/255 "
+    "is red. Pixels next to a silhouette are left out: their share is below 'edges'. Percentiles are of the largest "
     "difference of a channel in each pixel. FLIP is what a person sees of the difference, 0 to 1, at exposures of 0 to "
     "4 stops (HDR-FLIP by NVIDIA, mean over the whole picture)."
 )
