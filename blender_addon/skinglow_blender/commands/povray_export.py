@@ -5,7 +5,7 @@ import os
 from collections.abc import Sequence
 from itertools import chain, count
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import bpy
 import numpy as np
@@ -135,9 +135,13 @@ def _write_frame(
     obj = original.evaluated_get(depsgraph)
     base = base_lut(skin.base)
     tiles = None if what.compute_lut else tiles_of(original, depsgraph)
-    pictures = pictures_of(obj, skin, files, frame, surface=what.surface, by_thickness=tiles is None)
+    table = None if what.compute_lut or tiles is not None else compute_table(skin, reading.lights, reading.world)
+    varies = table is not None and table.lighting is not None
+    by_thickness = tiles is None
+    pictures = pictures_of(obj, skin, files, frame, surface=what.surface, by_thickness=by_thickness, varies=varies)
     notes = list(pictures.notes)
-    arguments: dict[str, Any] = mesh_arguments(obj, skin, base, tiles, places_of(depsgraph, original), pictures)
+    places = places_of(depsgraph, original)
+    arguments, tiles = mesh_arguments(obj, skin, base, tiles, places, table, pictures)
     arguments |= camera_arguments(depsgraph) | pictures.arguments
     # The macros alone look up a picture of thickness.
     computed = what.compute_lut or "thickness_image" in arguments
@@ -148,15 +152,16 @@ def _write_frame(
         notes.append(
             "The spread of an area light is a cone in POV-Ray: light on the surface is up to 15 % of the brightest off"
         )
-    if skin.weights != "OBJECT" and tiles is None:
+    if skin.mode == "PHYSICAL" and skin.weights != "OBJECT" and tiles is None:
         notes.append(f"'{skin.name}': its light varies over the surface in Blender; POV-Ray shows it per object")
+    if varies and len(places) > 1:
+        notes.append(f"'{skin.name}': its instances show the light of the first")
     if tiles is not None:
         # With a dark row for all that shows no light.
         light = np.pad(working_space.to_rec709(tiles[:, :, :3]), ((0, 1), (0, 0), (0, 0)))
         arguments["image"] = files.write(TILES_FILE, float_image(light, files.folder), frame)
     elif not computed:
-        colors = compute_table(skin, reading.lights, reading.world).colors
-        arguments["image"] = files.write(LUT_FILE, float_image(colors[None], files.folder), frame)
+        arguments["image"] = files.write(LUT_FILE, float_image(table.colors[None], files.folder), frame)
     if what.frames:
         render = depsgraph.scene.render
         arguments["frames"] = (*what.frames, render.fps / render.fps_base)

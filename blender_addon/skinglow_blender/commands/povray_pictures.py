@@ -36,18 +36,26 @@ class _NotExportedError(Exception):
 
 
 def pictures_of(
-    obj: bpy.types.Object, skin: Skin, files: SceneFiles, frame: int, *, surface: bool, by_thickness: bool
+    obj: bpy.types.Object,
+    skin: Skin,
+    files: SceneFiles,
+    frame: int,
+    *,
+    surface: bool,
+    by_thickness: bool,
+    varies: bool,
 ) -> Pictures:
     """Reads the materials, and writes their pictures.
 
     surface       whether the surface is exported
-    by_thickness  whether the glow is looked up by thickness, which may be a picture
+    by_thickness  whether the glow depends on thickness, which may be a picture
+    varies        whether it depends on the place too, so that the picture cannot be looked up
     """
     found = _surface(obj, files.folder) if surface else Pictures({}, "", [])
     arguments, uv_map, notes = found
     if by_thickness:
         try:
-            thickness, uv_map = _thickness(obj, skin, files, frame, uv_map)
+            thickness, uv_map = _thickness(obj, skin, files, frame, uv_map, varies)
             arguments |= thickness
         except _NotExportedError as reason:
             notes.append(
@@ -112,7 +120,7 @@ def _base_color(material: bpy.types.Material) -> bpy.types.NodeSocket | None:
 
 
 def _thickness(
-    obj: bpy.types.Object, skin: Skin, files: SceneFiles, frame: int, uv_map: str
+    obj: bpy.types.Object, skin: Skin, files: SceneFiles, frame: int, uv_map: str, varies: bool
 ) -> tuple[dict[str, Any], str]:
     """A picture of the thickness, where the Skinglow node has one, and its UV map.
 
@@ -121,6 +129,8 @@ def _thickness(
     sockets = _inputs(obj, "Thickness")
     if all(linked_node(socket) is None and socket.default_value < 0.0 for socket in sockets):
         return {}, uv_map
+    if varies:
+        raise _NotExportedError("is given to a skin that is lit per pixel")
     sources = {_scaled_image(socket) for socket in sockets}
     if len(sources) != 1 or not all(glowing_slots(obj)):
         raise _NotExportedError("is not the same in all of its slots")

@@ -8,11 +8,14 @@ import numpy as np
 
 from .. import blender_version
 from ..errors import SkinError
+from ..read.measured_size import MEASURED_UNIT
 from ..read.mesh_reading import vertices_of_slots
-from ..read.scene_reading import Skin
+from ..read.scene_reading import MM_PER_METER, Skin
 from ..show.frozen import is_frozen, read_frozen_tiles
 from ..show.tile_group import MAX_ROUNDING
 from ..show.tile_image import tiles_shown
+from ..table.skin_tables import Table
+from ..table.surface_light import surface_tiles
 from ..table.texel_mapping import texels_per_mm
 from ..thickness.thickness_attribute import read
 from ..thickness.tile_attribute import rows_of, texels_of
@@ -46,9 +49,13 @@ def mesh_arguments(
     base: Any,  # noqa: ANN401
     tiles: np.ndarray | None,
     places: list[np.ndarray],
+    table: Table | None,
     pictures: Pictures,
-) -> dict[str, Any]:
-    """The evaluated mesh in world space, at all of its places, with the coordinates of its light and pictures."""
+) -> tuple[dict[str, Any], np.ndarray | None]:
+    """The evaluated mesh in world space, at all of its places, with the coordinates of its light and pictures.
+
+    Also the tiles that it shows: those given, or of light that the table works out at each pixel.
+    """
     mesh = obj.to_mesh()
     try:
         points = np.empty(3 * len(mesh.vertices), np.float32)
@@ -67,19 +74,31 @@ def mesh_arguments(
             "instances": [place @ np.linalg.inv(matrix) for place in places[1:]],
         }
         if tiles is not None:
-            found["glow_uv"] = _texel_uv(obj, mesh, corners.reshape(-1, 3), tiles.shape)
+            found["glow_uv"] = glow_uv(_texels(obj, mesh, corners.reshape(-1, 3)), _unlit(obj, mesh), tiles.shape)
+        elif table is not None and table.lighting is not None:
+            mm = (base.size * _lut_u(obj, mesh, skin, base) - 0.5) / (base.size * base.texel_mapping[0])
+            unit_mm = obj.original.data.get(MEASURED_UNIT, MM_PER_METER)
+            body = found["vertices"], found["triangles"], _normals(mesh, corners, matrix)
+            lit = surface_tiles(*body, mm, unit_mm, skin.base, table)
+            tiles, texels = lit.pixels, lit.texels.astype(np.float64)
+            found["glow_uv"] = glow_uv(texels, _unlit(obj, mesh), tiles.shape)
         elif "thickness_image" not in pictures.arguments:
             found["lut_u"] = _lut_u(obj, mesh, skin, base)
         if smooth.any():
-            normals = blender_version.corner_normals(mesh)[corners] @ np.linalg.inv(matrix[:3, :3])
-            found["normals"] = (normals / np.linalg.norm(normals, axis=1, keepdims=True)).reshape(-1, 3, 3)
+            found["normals"] = _normals(mesh, corners, matrix)
         if pictures.uv_map:
             uv = np.empty(2 * len(mesh.loops), np.float32)
             mesh.uv_layers[pictures.uv_map].data.foreach_get("uv", uv)
             found["surface_uv"] = uv.reshape(-1, 2)[corners].reshape(-1, 3, 2)
-        return found
+        return found, tiles
     finally:
         obj.to_mesh_clear()
+
+
+def _normals(mesh: bpy.types.Mesh, corners: np.ndarray, matrix: np.ndarray) -> np.ndarray:
+    """(m, 3, 3), of the triangles' corners, in the world."""
+    normals = blender_version.corner_normals(mesh)[corners] @ np.linalg.inv(matrix[:3, :3])
+    return (normals / np.linalg.norm(normals, axis=1, keepdims=True)).reshape(-1, 3, 3)
 
 
 def _lut_u(obj: bpy.types.Object, mesh: bpy.types.Mesh, skin: Skin, base: Any) -> np.ndarray:  # noqa: ANN401
@@ -97,21 +116,28 @@ def _lut_u(obj: bpy.types.Object, mesh: bpy.types.Mesh, skin: Skin, base: Any) -
     return (texels + 0.5) / base.size
 
 
-def _texel_uv(obj: bpy.types.Object, mesh: bpy.types.Mesh, corners: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
-    """The coordinates (m, 3, 2) of each triangle's corners in the image of the tiles and the dark row above them."""
-    height, width = shape[0] + 1, shape[1]
+def _texels(obj: bpy.types.Object, mesh: bpy.types.Mesh, corners: np.ndarray) -> np.ndarray:
+    """(m, 3, 3), of the tiles that Blender shows, at each triangle's corners."""
     texels = texels_of(mesh)
     if texels is None:
         raise SkinError(f"'{obj.name}' has no tiles behind its modifiers: apply them, or set Lighting to Per Object")
-    texels = texels[corners].astype(np.float64)
-    slot = np.empty(len(corners), np.int32)
+    return texels[corners].astype(np.float64)
+
+
+def _unlit(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> np.ndarray:
+    """(m,) bool: the triangles of slots that are no skin."""
+    slot = np.empty(len(mesh.loop_triangles), np.int32)
     mesh.loop_triangles.foreach_get("material_index", slot)
     shows = glowing_slots(obj)
+    return ~np.array(shows)[np.minimum(slot, len(shows) - 1)] if shows else np.zeros(len(slot), bool)
+
+
+def glow_uv(texels: np.ndarray, unlit: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
+    """The coordinates (m, 3, 2) of each triangle's corners in the image of the tiles and the dark row above them."""
+    height, width = shape[0] + 1, shape[1]
     tile = texels[:, :, 2]
-    dark = (tile.min(axis=1) < 1.0) | (np.ptp(tile, axis=1) > MAX_ROUNDING)
-    if shows:
-        dark |= ~np.array(shows)[np.minimum(slot, len(shows) - 1)]
     uv = (texels[:, :, :2] + 0.5) / (width, height)
+    dark = unlit | (tile.min(axis=1) < 1.0) | (np.ptp(tile, axis=1) > MAX_ROUNDING)
     uv[dark] = 0.5 / width, 1.0 - 0.5 / height
     return uv
 
