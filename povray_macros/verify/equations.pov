@@ -5,6 +5,7 @@
 //   cd povray_macros && povray verify/equations.pov -D -F
 
 #version 3.7;
+#declare Skinglow_Light_Sources = 0;
 #include "skinglow.inc"
 global_settings { assumed_gamma 1.0 }
 
@@ -42,6 +43,14 @@ global_settings { assumed_gamma 1.0 }
 
 #declare Light = Skinglow_Light_Weight(3, Kinds, Colors, Positions, Powers, <0, 0, 0>, <1, 0, 1>);
 Verify_Color("L", Light, <1.0673248156733326, 0.8759887699172859, 1.2188394806931313>)
+
+// The same lights as a list, and an empty one.
+Skinglow_Light("POINT", Colors[0], Positions[0], -z, Powers[0], Skinglow_Point_Shape(0, 1))
+Skinglow_Light("SPOT", Colors[1], Positions[1], -z, Powers[1], Skinglow_Spot_Shape(0, 1, 1, 0, 0))
+Skinglow_Light("AREA", Colors[2], Positions[2], -z, Powers[2], Skinglow_Rectangle_Shape(1, 1, x, pi))
+Verify_Color("listed", Skinglow_Listed_Weight(<0, 0, 0>, <1, 0, 1>), Light)
+Skinglow_Forget_Lights()
+Verify_Color("forgotten", Skinglow_Listed_Weight(<0, 0, 0>, <1, 0, 1>), <0, 0, 0>)
 
 #declare Base = array[2] {1, 0.25}
 #declare Table = Skinglow_Recolor(Base, Skinglow_Blood, Light)

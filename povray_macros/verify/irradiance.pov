@@ -51,6 +51,16 @@ Verify("disk_with_spread", "AREA", 10, -z, Skinglow_Ellipse_Shape(2, 2, x, 2), 1
 // Far off, the gain on the axis: T / (T - arctan T).
 Verify("far_rectangle", "AREA", 10, -z, Skinglow_Rectangle_Shape(1e-5, 1e-5, x, 2), 10 / (4 * pi) * tan(1) / (tan(1) - 1), 1e-9)
 
+// A list: two lights that face the point, one of them taken away from.
+Skinglow_Forget_Lights()
+Skinglow_Light("SUN", <1, 0.5, 0>, <9, 9, 9>, -z, 3, Skinglow_Sun_Shape(0))
+Skinglow_Light("POINT", <1, 0.5, 0>, <0, 0, 2>, -z, -16 * pi, Skinglow_Point_Shape(0, 1))
+#declare Listed = Skinglow_Listed_Irradiance(<0, 0, 0>);
+#declare Alone = Skinglow_Irradiance("point", <2, 0, 0>, <0, 0, 2>, -z, 16 * pi, Skinglow_Point_Shape(0, 1), <0, 0, 0>);
+#if (vlength(Listed - <2, 1, 0>) > 1e-14 | vlength(Alone - <2, 0, 0>) > 1e-14)
+    #error concat("listed is ", vstr(3, Listed, ", ", 0, 17), ", alone ", vstr(3, Alone, ", ", 0, 17), "\n")
+#end
+
 #fclose Numbers
 #debug "skinglow.inc: irradiance agrees\n"
 camera { location -z }

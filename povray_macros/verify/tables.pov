@@ -29,6 +29,10 @@ Verify("u of 99 mm", Skinglow_Lut_U(99, 5, 12), 4.5 / 5, 1e-12)
 Verify_Color("fixed lookup at 0", Fixed[0], <1, 1, 1>, 1e-12)
 Verify("fixed lookup at 3 mm, red", Fixed[1].x,
        0.113 * exp(-9 / 0.567) + 0.358 * exp(-9 / 1.99) + 0.078 * exp(-9 / 7.41) + 0.118 * exp(-9 / 0.187), 1e-12)
+// Its brightness is the base lookup: luminance.
+#declare Base = Skinglow_Six_Gaussian_Base(5, 12)
+Verify("base at 0", Base[0], 1, 1e-12)
+Verify("base at 3 mm", Base[1], vdot(Fixed[1], <0.2126, 0.7152, 0.0722>), 1e-12)
 
 // Mode physical: columns times weight.
 #declare Red = array[2] {<1, 2, 3>, <0.1, 0.2, 0.3>}

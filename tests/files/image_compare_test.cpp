@@ -130,6 +130,26 @@ TEST(ImageCompare, EdgesOfEitherImageAndOfTheMaskCount) {
         << "where objects meet";
 }
 
+TEST(ImageCompare, BackgroundIsLeftOut) {
+    const ScratchFolder folder;
+    write_test_image(folder / "a.exr", {7, 1, {"R", "G", "B", "A"}, silhouette(0.0F, 0.5F)});
+    write_test_image(folder / "b.exr", {7, 1, {"R", "G", "B", "A"}, silhouette(1.0F, 0.5F)});
+    CompareOptions options;
+    options.ignore_background = true;
+    const ImageComparison result = compare_images(folder / "a.exr", folder / "b.exr", options);
+    EXPECT_EQ(result.compared_pixels, 5U) << "column 2 is covered by one of them";
+    EXPECT_EQ(result.left_out_pixels, 2U);
+    EXPECT_EQ(result.background_pixels, 2U);
+    options.ignore_edges = true;
+    const ImageComparison both = compare_images(folder / "a.exr", folder / "b.exr", options);
+    EXPECT_EQ(both.compared_pixels, 3U) << "columns 4, 5 and 6";
+    EXPECT_EQ(both.background_pixels, 2U) << "columns 0 and 1, which is next to an edge too";
+    EXPECT_NEAR(result.total.rms, 0.5 / std::sqrt(5.0), 1e-12);
+    write_test_image(folder / "c.exr", {7, 1, {"R", "G", "B"}, std::vector<float>(21, 0.5F)});
+    expect_refused<FileError>([&] { compare_images(folder / "c.exr", folder / "c.exr", options); },
+                              {"no alpha", "transparent"});
+}
+
 TEST(ImageCompare, RefusesUnlikeSizesNamingBoth) {
     const ScratchFolder folder;
     write_test_image(folder / "a.exr", {2, 1, {"Y"}, {1, 2}});

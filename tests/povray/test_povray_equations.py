@@ -77,7 +77,7 @@ def test_verification_scene_of_table_1(tmp_path):
     (tmp_path / "verify.pov").write_text((MACROS / "verify" / "equations.pov").read_text())
     run(tmp_path, "verify.pov", "-F")
     lines = dict(line.split() for line in (tmp_path / "equations.txt").read_text().splitlines())
-    assert len(lines) == 21
+    assert len(lines) == 27
     for i, channel in enumerate("rgb"):
         expected = float(exact_table_1()[i])
         assert exact(lines[f"L.{channel}"]) == pytest.approx(expected, rel=1e-12, abs=0)

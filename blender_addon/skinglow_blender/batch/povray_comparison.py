@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 import bpy
 
 from ..commands.povray_export import export_povray
+from ..commands.povray_pictures import materials_of_skin
 from ..commands.povray_run import povray_program, run_povray, run_program
-from ..commands.povray_scene import materials_of_skin
 from ..commands.skin import skin_settings_of
 from ..errors import SkinError
 from ..live.live_update import update_scene
@@ -25,8 +25,9 @@ from .rigs import Rig, light_objects, lit_by, make_ready
 
 MODES = ("existing", "paper", "physical")
 ALL_LIGHTS = "all lights"
-#: Samples of a pixel, in Blender at random in a box, in POV-Ray on a grid of as many.
-SAMPLES, GRID = 64, 8
+#: The narrowest filter that Cycles takes, in pixels. Each pixel is one ray through its center, the same in both
+#: programs: of glow in a line thinner than a pixel, several samples at places of their own see different parts.
+FILTER_WIDTH = 0.01
 
 
 class PovrayComparison(NamedTuple):
@@ -46,10 +47,11 @@ def compare_with_povray(
 ) -> PovrayComparison:
     """Renders the light through a skin by Cycles and by POV-Ray, in each mode, under all lights and each alone.
 
-    POV-Ray computes the lookup itself. Both programs have the scene's camera, so that pixels meet; the skin is lit per
-    object, and everything else is hidden. Writes report.html and report.json, and for each comparison both pictures
-    (linear EXR), the POV-Ray scene, and a PNG of both beside the heat map. Without POV-Ray, or without the program
-    `skinglow`, which compares, all other files are written, and the notes say so. The scene is left as it was.
+    POV-Ray computes the lookup itself. Both programs have the scene's camera and one ray through the center of each
+    pixel; the skin is lit per object, and everything else is hidden. Writes report.html and report.json, and for each
+    comparison both pictures (linear EXR), the POV-Ray scene, and a PNG of both beside the heat map. Without POV-Ray, or
+    without the program `skinglow`, which compares, all other files are written, and the notes say so. The scene is left
+    as it was.
     """
     skin_settings_of(obj)
     unknown = set(modes := tuple(modes)) - set(MODES)
@@ -115,7 +117,7 @@ def _compare(obj: bpy.types.Object, scene: bpy.types.Scene, folder: Path, entry:
     if povray_program() is None:
         return files.notes
     try:
-        run_povray(folder / "povray", "+UA", f"+R{GRID}", "+A0.0", "+O../povray.exr")
+        run_povray(folder / "povray", "+UA", "-A", "+O../povray.exr")
         if compare_program() is not None:
             entry.update(_measured(folder))
     except SkinError as error:
@@ -124,12 +126,16 @@ def _compare(obj: bpy.types.Object, scene: bpy.types.Scene, folder: Path, entry:
 
 
 def _measured(folder: Path) -> dict[str, Any]:
-    pictures = ["blender.exr", "povray.exr", "--ignore-edges", "--side-by-side", "side_by_side.png"]
-    command = [compare_program(), "compare", *pictures, "--heatmap", "difference.png", "--json"]
+    pictures = ["blender.exr", "povray.exr", "--ignore-edges", "--ignore-background"]
+    shown = ["--side-by-side", "side_by_side.png", "--heatmap", "difference.png"]
+    command = [compare_program(), "compare", *pictures, *shown, "--json"]
     done = run_program(command, folder)
     if not done.succeeded:
         raise SkinError(done.errors.strip() or "skinglow compare failed without a word")
-    return json.loads(done.output) | {"flip": _perceived(folder)}
+    found = json.loads(done.output)
+    covered = found["width"] * found["height"] - found["background_pixels"]
+    left_out = 1.0 - found["compared_pixels"] / covered
+    return found | {"left_out_fraction": left_out, "flip": _perceived(folder)}
 
 
 def _perceived(folder: Path) -> float | None:
@@ -173,8 +179,8 @@ def _prepared(obj: bpy.types.Object, scene: bpy.types.Scene) -> Iterator[None]:
                 render,
                 {"use_compositing": False, "use_sequencer": False, "use_border": False, "use_file_extension": True},
             ),
-            (cycles, {"samples": SAMPLES, "use_adaptive_sampling": False, "use_denoising": False}),
-            (cycles, {"pixel_filter_type": "BOX", "filter_width": 1.0}),
+            (cycles, {"samples": 1, "use_adaptive_sampling": False, "use_denoising": False}),
+            (cycles, {"pixel_filter_type": "BOX", "filter_width": FILTER_WIDTH}),
             (image, {"file_format": "OPEN_EXR", "color_depth": "32", "color_mode": "RGBA"}),
         ):
             for name, value in settings.items():

@@ -20,11 +20,12 @@ HTML = """<!DOCTYPE html>
 </body></html>
 """
 EXPLANATION = (
-    "Differences in linear light, away from edges; an RMS above 1/255 is red. Percentiles are of the largest "
+    "Differences in linear light where the skin is, with one ray through the center of each pixel; an RMS above 1/255 "
+    "is red. Pixels next to a silhouette are left out: their share is below 'edges'. Percentiles are of the largest "
     "difference of a channel in each pixel. FLIP is what a person sees of the difference, 0 to 1, at exposures of 0 to "
-    "4 stops (HDR-FLIP by NVIDIA, mean over all pixels, edges too)."
+    "4 stops (HDR-FLIP by NVIDIA, mean over the whole picture)."
 )
-COLUMNS = ("RMS", "maximum", "50 %", "95 %", "99.9 %", "FLIP", "pixels")
+COLUMNS = ("RMS", "maximum", "50 %", "95 %", "99.9 %", "FLIP", "pixels", "edges")
 
 
 def write_report(directory: Path, skin: str, entries: list[dict[str, Any]], notes: list[str]) -> Path:
@@ -66,6 +67,7 @@ def _row(entry: dict[str, Any]) -> str:
     cells = [f"{value:.2e}" for value in values] + [
         "" if entry["flip"] is None else f"{entry['flip']:.4f}",
         str(entry["compared_pixels"]),
+        f"{entry['left_out_fraction']:.1%}",
     ]
     mark = "" if entry["within"] else ' class="far"'
     return f"<tr{mark}>{names}{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>"

@@ -5,7 +5,7 @@ import os
 from collections.abc import Sequence
 from itertools import chain, count
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import bpy
 import numpy as np
@@ -15,7 +15,8 @@ from ..read import working_space
 from ..read.scene_lights import make_light
 from ..read.scene_reading import SceneReading, Skin, read_scene
 from ..table.skin_tables import base_lut, compute_table, lights_of, world_irradiance
-from .povray_scene import camera_arguments, mesh_arguments, places_of, surface_arguments, tiles_of
+from .povray_pictures import pictures_of
+from .povray_scene import camera_arguments, mesh_arguments, places_of, tiles_of
 from .povray_writing import SceneFiles, float_image, staged
 
 LUT_FILE, TILES_FILE = "lut.exr", "tiles.exr"
@@ -134,32 +135,42 @@ def _write_frame(
     obj = original.evaluated_get(depsgraph)
     base = base_lut(skin.base)
     tiles = None if what.compute_lut else tiles_of(original, depsgraph)
-    arguments: dict[str, Any] = mesh_arguments(obj, skin, base, tiles, places_of(depsgraph, original))
-    arguments |= camera_arguments(depsgraph)
-    look, notes = surface_arguments(obj, files.folder) if what.surface else ({}, [])
-    arguments.update(look)
-    if "surface_image" not in arguments:
-        arguments.pop("surface_uv", None)
+    table = None if what.compute_lut or tiles is not None else compute_table(skin, reading.lights, reading.world)
+    varies = table is not None and table.lighting is not None
+    by_thickness = tiles is None
+    pictures = pictures_of(obj, skin, files, frame, surface=what.surface, by_thickness=by_thickness, varies=varies)
+    notes = list(pictures.notes)
+    places = places_of(depsgraph, original)
+    arguments, tiles = mesh_arguments(obj, skin, base, tiles, places, table, pictures)
+    arguments |= camera_arguments(depsgraph) | pictures.arguments
+    # The macros alone look up a picture of thickness.
+    computed = what.compute_lut or "thickness_image" in arguments
     if depsgraph.scene.camera.data.dof.use_dof:
         notes.append("Depth of field is not exported")
-    if skin.weights != "OBJECT" and tiles is None:
+    lights = [make_light(light) for light in lights_of(skin, reading.lights)]
+    if what.surface and any(light.kind == "AREA" and light.spread < np.pi for light in lights):
+        notes.append(
+            "The spread of an area light is a cone in POV-Ray: light on the surface is up to 15 % of the brightest off"
+        )
+    if skin.mode == "PHYSICAL" and skin.weights != "OBJECT" and tiles is None:
         notes.append(f"'{skin.name}': its light varies over the surface in Blender; POV-Ray shows it per object")
+    if varies and len(places) > 1:
+        notes.append(f"'{skin.name}': its instances show the light of the first")
     if tiles is not None:
         # With a dark row for all that shows no light.
         light = np.pad(working_space.to_rec709(tiles[:, :, :3]), ((0, 1), (0, 0), (0, 0)))
         arguments["image"] = files.write(TILES_FILE, float_image(light, files.folder), frame)
-    elif not what.compute_lut:
-        colors = compute_table(skin, reading.lights, reading.world).colors
-        arguments["image"] = files.write(LUT_FILE, float_image(colors[None], files.folder), frame)
+    elif not computed:
+        arguments["image"] = files.write(LUT_FILE, float_image(table.colors[None], files.folder), frame)
     if what.frames:
         render = depsgraph.scene.render
         arguments["frames"] = (*what.frames, render.fps / render.fps_base)
     texts = core().povray_files(
         mode=skin.mode.lower(),
-        base=base if skin.mode == "PAPER" or (what.compute_lut and skin.mode == "PHYSICAL") else None,
+        base=base if skin.mode == "PAPER" or (computed and skin.mode == "PHYSICAL") else None,
         size=base.size,
         max_thickness_mm=base.max_thickness_mm,
-        lights=[make_light(light) for light in lights_of(skin, reading.lights)],
+        lights=lights,
         point=skin.point,
         coefficients=skin.attenuation,
         blood_weight=skin.blood_weight,

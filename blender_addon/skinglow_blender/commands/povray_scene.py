@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads what a POV-Ray scene needs from Blender: mesh, camera and surface, as arguments of the core."""
 
-from pathlib import Path
 from typing import Any
 
 import bpy
@@ -9,16 +8,18 @@ import numpy as np
 
 from .. import blender_version
 from ..errors import SkinError
-from ..read import working_space
+from ..read.measured_size import MEASURED_UNIT
 from ..read.mesh_reading import vertices_of_slots
-from ..read.scene_reading import Skin
+from ..read.scene_reading import MM_PER_METER, Skin
 from ..show.frozen import is_frozen, read_frozen_tiles
-from ..show.skin_material import skin_node
 from ..show.tile_group import MAX_ROUNDING
 from ..show.tile_image import tiles_shown
+from ..table.skin_tables import Table
+from ..table.surface_light import surface_tiles
 from ..table.texel_mapping import texels_per_mm
 from ..thickness.thickness_attribute import read
 from ..thickness.tile_attribute import rows_of, texels_of
+from .povray_pictures import Pictures, glowing_slots
 
 CAMERAS = ("PERSP", "ORTHO")
 
@@ -48,8 +49,13 @@ def mesh_arguments(
     base: Any,  # noqa: ANN401
     tiles: np.ndarray | None,
     places: list[np.ndarray],
-) -> dict[str, Any]:
-    """The evaluated mesh in world space, at all of its places, with the coordinates of its light."""
+    table: Table | None,
+    pictures: Pictures,
+) -> tuple[dict[str, Any], np.ndarray | None]:
+    """The evaluated mesh in world space, at all of its places, with the coordinates of its light and pictures.
+
+    Also the tiles that it shows: those given, or of light that the table works out at each pixel.
+    """
     mesh = obj.to_mesh()
     try:
         points = np.empty(3 * len(mesh.vertices), np.float32)
@@ -68,19 +74,31 @@ def mesh_arguments(
             "instances": [place @ np.linalg.inv(matrix) for place in places[1:]],
         }
         if tiles is not None:
-            found["glow_uv"] = _texel_uv(obj, mesh, corners.reshape(-1, 3), tiles.shape)
-        else:
+            found["glow_uv"] = glow_uv(_texels(obj, mesh, corners.reshape(-1, 3)), _unlit(obj, mesh), tiles.shape)
+        elif table is not None and table.lighting is not None:
+            mm = (base.size * _lut_u(obj, mesh, skin, base) - 0.5) / (base.size * base.texel_mapping[0])
+            unit_mm = obj.original.data.get(MEASURED_UNIT, MM_PER_METER)
+            body = found["vertices"], found["triangles"], _normals(mesh, corners, matrix)
+            lit = surface_tiles(*body, mm, unit_mm, skin.base, table)
+            tiles, texels = lit.pixels, lit.texels.astype(np.float64)
+            found["glow_uv"] = glow_uv(texels, _unlit(obj, mesh), tiles.shape)
+        elif "thickness_image" not in pictures.arguments:
             found["lut_u"] = _lut_u(obj, mesh, skin, base)
         if smooth.any():
-            normals = blender_version.corner_normals(mesh)[corners] @ np.linalg.inv(matrix[:3, :3])
-            found["normals"] = (normals / np.linalg.norm(normals, axis=1, keepdims=True)).reshape(-1, 3, 3)
-        if mesh.uv_layers.active is not None:
+            found["normals"] = _normals(mesh, corners, matrix)
+        if pictures.uv_map:
             uv = np.empty(2 * len(mesh.loops), np.float32)
-            mesh.uv_layers.active.data.foreach_get("uv", uv)
+            mesh.uv_layers[pictures.uv_map].data.foreach_get("uv", uv)
             found["surface_uv"] = uv.reshape(-1, 2)[corners].reshape(-1, 3, 2)
-        return found
+        return found, tiles
     finally:
         obj.to_mesh_clear()
+
+
+def _normals(mesh: bpy.types.Mesh, corners: np.ndarray, matrix: np.ndarray) -> np.ndarray:
+    """(m, 3, 3), of the triangles' corners, in the world."""
+    normals = blender_version.corner_normals(mesh)[corners] @ np.linalg.inv(matrix[:3, :3])
+    return (normals / np.linalg.norm(normals, axis=1, keepdims=True)).reshape(-1, 3, 3)
 
 
 def _lut_u(obj: bpy.types.Object, mesh: bpy.types.Mesh, skin: Skin, base: Any) -> np.ndarray:  # noqa: ANN401
@@ -98,35 +116,35 @@ def _lut_u(obj: bpy.types.Object, mesh: bpy.types.Mesh, skin: Skin, base: Any) -
     return (texels + 0.5) / base.size
 
 
-def _texel_uv(obj: bpy.types.Object, mesh: bpy.types.Mesh, corners: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
-    """The coordinates (m, 3, 2) of each triangle's corners in the image of the tiles and the dark row above them."""
-    height, width = shape[0] + 1, shape[1]
+def _texels(obj: bpy.types.Object, mesh: bpy.types.Mesh, corners: np.ndarray) -> np.ndarray:
+    """(m, 3, 3), of the tiles that Blender shows, at each triangle's corners."""
     texels = texels_of(mesh)
     if texels is None:
         raise SkinError(f"'{obj.name}' has no tiles behind its modifiers: apply them, or set Lighting to Per Object")
-    texels = texels[corners].astype(np.float64)
-    slot = np.empty(len(corners), np.int32)
+    return texels[corners].astype(np.float64)
+
+
+def _unlit(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> np.ndarray:
+    """(m,) bool: the triangles of slots that are no skin."""
+    slot = np.empty(len(mesh.loop_triangles), np.int32)
     mesh.loop_triangles.foreach_get("material_index", slot)
-    shows = _glowing_slots(obj)
+    shows = glowing_slots(obj)
+    return ~np.array(shows)[np.minimum(slot, len(shows) - 1)] if shows else np.zeros(len(slot), bool)
+
+
+def glow_uv(texels: np.ndarray, unlit: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
+    """The coordinates (m, 3, 2) of each triangle's corners in the image of the tiles and the dark row above them."""
+    height, width = shape[0] + 1, shape[1]
     tile = texels[:, :, 2]
-    dark = (tile.min(axis=1) < 1.0) | (np.ptp(tile, axis=1) > MAX_ROUNDING)
-    if shows:
-        dark |= ~np.array(shows)[np.minimum(slot, len(shows) - 1)]
     uv = (texels[:, :, :2] + 0.5) / (width, height)
+    dark = unlit | (tile.min(axis=1) < 1.0) | (np.ptp(tile, axis=1) > MAX_ROUNDING)
     uv[dark] = 0.5 / width, 1.0 - 0.5 / height
     return uv
 
 
-def _glowing_slots(obj: bpy.types.Object) -> list[bool]:
-    """Whether the material of each slot adds light."""
-    materials = [slot.material for slot in obj.material_slots]
-    nodes = [skin_node(material) if material is not None else None for material in materials]
-    return [node is not None and not node.mute for node in nodes]
-
-
 def _glowing_vertices(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> np.ndarray:
     """(n,) bool: the vertices of faces whose material adds light."""
-    slots = _glowing_slots(obj)
+    slots = glowing_slots(obj)
     return vertices_of_slots(mesh, slots) if slots else np.ones(len(mesh.vertices), bool)
 
 
@@ -148,72 +166,3 @@ def camera_arguments(depsgraph: bpy.types.Depsgraph) -> dict[str, Any]:
         "projection": np.array(projection, np.float64),
         "resolution": (width, height),
     }
-
-
-def materials_of_skin(obj: bpy.types.Object) -> list[bpy.types.Material]:
-    """The materials of the object that have the Skinglow node."""
-    return [m for m in dict.fromkeys(slot.material for slot in obj.material_slots) if m is not None and skin_node(m)]
-
-
-def surface_arguments(obj: bpy.types.Object, folder: Path) -> tuple[dict[str, Any], list[str]]:
-    """The surface's base color or texture, and what of it is not exported; empty if it has no Principled BSDF."""
-    material = next(iter(materials_of_skin(obj)), None)
-    tree = blender_version.shader_tree(material) if material is not None else None
-    principled = next((n for n in tree.nodes if n.bl_idname == "ShaderNodeBsdfPrincipled"), None) if tree else None
-    if principled is None:
-        return {}, []
-    socket = principled.inputs["Base Color"]
-    if not socket.is_linked:
-        return {"surface_color": _rest_color(socket)}, []
-    source = socket.links[0].from_node
-    reason = f"comes from the node '{source.name}'"
-    if source.bl_idname == "ShaderNodeTexImage" and source.image is not None:
-        reason = _write_picture(source.image, folder)
-        if not reason:
-            return {"surface_image": _picture_name(source.image)}, []
-    note = f"'{obj.name}': the base color {reason}, which is not exported: POV-Ray shows the color behind the link"
-    return {"surface_color": _rest_color(socket)}, [note]
-
-
-def _rest_color(socket: bpy.types.NodeSocket) -> tuple[float, ...]:
-    color = working_space.to_rec709(np.array(socket.default_value)[:3])
-    return tuple(color.clip(0.0).tolist())
-
-
-def _picture_name(image: bpy.types.Image) -> str:
-    if image.source == "GENERATED":
-        return "surface.exr" if image.is_float else "surface.png"
-    return f"surface{Path(image.filepath).suffix.lower()}"
-
-
-def _write_picture(image: bpy.types.Image, folder: Path) -> str:
-    """Puts an image's packed, external or generated pixels into the folder; why not, or ""."""
-    if image.source == "GENERATED":
-        _write_generated(image, folder / _picture_name(image))
-        return ""
-    if image.source != "FILE":
-        kind = {"TILED": "is a picture in tiles (UDIM)", "SEQUENCE": "is a sequence of pictures"}
-        return f"{kind.get(image.source, 'is a movie')} '{image.name}'"
-    source = Path(bpy.path.abspath(image.filepath, library=image.library))
-    target = folder / _picture_name(image)
-    if image.packed_file is not None:
-        target.write_bytes(image.packed_file.data)
-    elif source.is_file():
-        target.write_bytes(source.read_bytes())
-    else:
-        return f"is the picture '{image.name}', whose file is missing"
-    return ""
-
-
-def _write_generated(image: bpy.types.Image, path: Path) -> None:
-    """Saves pixels that have no file; a copy of the datablock would have lost what was painted."""
-    pixels = np.empty(len(image.pixels), np.float32)
-    image.pixels.foreach_get(pixels)
-    copy = bpy.data.images.new(".Skinglow export", *image.size, alpha=True, float_buffer=image.is_float)
-    try:
-        copy.colorspace_settings.name = image.colorspace_settings.name
-        copy.pixels.foreach_set(pixels)
-        copy.file_format, copy.filepath_raw = "OPEN_EXR" if image.is_float else "PNG", str(path)
-        copy.save()
-    finally:
-        bpy.data.images.remove(copy)

@@ -17,7 +17,7 @@ from .exr_writing import write_exr
 
 #: What an earlier export may have left in a scene's folder.
 SCENE_FILE = re.compile(
-    r"(camera|columns|lights|lut|mesh|tiles)(_\d{4,})?\.(inc|exr)|surface\.\w+|scene\.(pov|ini)|skinglow\.inc"
+    r"(camera|columns|lights|lut|mesh|thickness|tiles)(_\d{4,})?\.(inc|exr)|surface\.\w+|scene\.(pov|ini)|skinglow\.inc"
 )
 
 

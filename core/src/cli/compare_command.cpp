@@ -17,6 +17,7 @@ struct Options {
     std::string mask;
     std::string side_by_side;
     bool ignore_edges = false;
+    bool ignore_background = false;
     double peak = 1.0;
     std::optional<double> scale;
     std::optional<double> max_rms;
@@ -38,6 +39,7 @@ void print_as_json(const ImageComparison& comparison, std::optional<double> heat
     object["height"] = comparison.height;
     object["compared_pixels"] = comparison.compared_pixels;
     object["left_out_pixels"] = comparison.left_out_pixels;
+    object["background_pixels"] = comparison.background_pixels;
     object["worst_pixel"] = {comparison.worst_x, comparison.worst_y};
     for (const auto& [percent, value] : comparison.percentiles)
         object["percentiles"][short_number(percent)] = value;
@@ -74,6 +76,7 @@ int run(const Options& options) {
     CompareOptions how;
     how.peak = options.peak;
     how.ignore_edges = options.ignore_edges;
+    how.ignore_background = options.ignore_background;
     if (!options.mask.empty()) how.mask = options.mask;
     const ImageComparison comparison = compare_images(options.first, options.second, how);
     for (const std::string& note : comparison.notes) std::cerr << "skinglow: file " << note << '\n';
@@ -112,6 +115,8 @@ void add_compare_command(CLI::App& program, int& exit_code) {
     command->add_flag(
         "--ignore-edges", options->ignore_edges,
         "Leave out antialiased edges: pixels in whose 3 x 3 neighborhood alpha or mask changes");
+    command->add_flag("--ignore-background", options->ignore_background,
+                      "Leave out pixels where the alpha of both images is 0");
     add_option(*command, "--peak", options->peak, "X", "Value of white for PSNR");
     add_option(*command, "--max-rms", options->max_rms, "X",
                "Exit with 1 if the RMS over all channels is above it");

@@ -15,6 +15,8 @@ namespace skinglow::detail {
 namespace {
 
 constexpr float edge_tolerance = 1.0F / 255.0F;
+/// Of pixels left out because nothing is there; 1 are those left out otherwise.
+constexpr char background = 2;
 
 std::string size_text(const LinearImage& image) {
     return std::to_string(image.width) + " x " + std::to_string(image.height);
@@ -51,14 +53,25 @@ std::vector<float> read_mask(const std::filesystem::path& path, const std::files
     return values;
 }
 
-/// 1 where a pixel is left out.
+/// Marks pixels that neither image covers.
+void mark_background(const LinearImage& first, const LinearImage& second, std::vector<char>& out) {
+    const auto uncovered = [](const LinearImage& image, std::size_t i) {
+        return image.alpha.empty() || !(image.alpha[i] > 0.0F);
+    };
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        if (uncovered(first, i) && uncovered(second, i)) out[i] = background;
+    }
+}
+
+/// Not 0 where a pixel is left out.
 std::vector<char> left_out(const std::filesystem::path& first_path, LinearImage& first, LinearImage& second,
                            const CompareOptions& options) {
     std::vector<char> out(first.pixels(), 0);
     std::vector<float> mask;
     if (options.mask) mask = read_mask(*options.mask, first_path, first);
+    const bool no_alpha = first.alpha.empty() && second.alpha.empty();
     if (options.ignore_edges) {
-        if (mask.empty() && first.alpha.empty() && second.alpha.empty()) {
+        if (mask.empty() && no_alpha) {
             refuse_file(first_path, "has no alpha to find edges by, nor has the other",
                         "render with a transparent background, or give a mask");
         }
@@ -68,6 +81,13 @@ std::vector<char> left_out(const std::filesystem::path& first_path, LinearImage&
     }
     for (std::size_t i = 0; i < mask.size(); ++i) {
         if (!(mask[i] > 0.0F)) out[i] = 1;
+    }
+    if (options.ignore_background) {
+        if (no_alpha) {
+            refuse_file(first_path, "has no alpha to tell the background by, nor has the other",
+                        "render with a transparent background");
+        }
+        mark_background(first, second, out);
     }
     return out;
 }
@@ -119,6 +139,7 @@ ImageComparison compare_images(const std::filesystem::path& first_path,
     for (std::size_t i = 0; i < first.pixels(); ++i) {
         if (out[i] != 0) {
             ++comparison.left_out_pixels;
+            if (out[i] == background) ++comparison.background_pixels;
             continue;
         }
         ++comparison.compared_pixels;
@@ -141,7 +162,7 @@ ImageComparison compare_images(const std::filesystem::path& first_path,
     }
     if (comparison.compared_pixels == 0) {
         refuse_file(first_path, "has no pixel left to compare",
-                    "the mask and the edges leave out all of them");
+                    "mask, edges and background leave out all of them");
     }
     comparison.percentiles = percentiles_of(comparison);
     const auto count = static_cast<double>(comparison.compared_pixels);

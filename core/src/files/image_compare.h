@@ -22,8 +22,9 @@ struct ImageDifference {
 };
 
 struct CompareOptions {
-    double peak = 1.0;          ///< the value that PSNR takes for white; finite, above 0
-    bool ignore_edges = false;  ///< leave out antialiased edges: see compare_images
+    double peak = 1.0;               ///< the value that PSNR takes for white; finite, above 0
+    bool ignore_edges = false;       ///< leave out antialiased edges: see compare_images
+    bool ignore_background = false;  ///< leave out pixels where the alpha of both images is 0
     std::optional<std::filesystem::path>
         mask;  ///< an image of the same size; only where it is above 0 is compared
 };
@@ -34,8 +35,9 @@ struct ImageComparison {
     int width = 0;
     int height = 0;
     std::size_t compared_pixels = 0;
-    std::size_t left_out_pixels = 0;
-    std::size_t worst_x = 0;  ///< pixel of the largest difference, from the left and the top
+    std::size_t left_out_pixels = 0;    ///< in all
+    std::size_t background_pixels = 0;  ///< left out by `ignore_background`
+    std::size_t worst_x = 0;            ///< pixel of the largest difference, from the left and the top
     std::size_t worst_y = 0;
     /// `error` of the compared pixels: the value that so many percent of them do not exceed.
     std::vector<std::pair<double, double>> percentiles;

@@ -6,6 +6,7 @@ import subprocess
 import bpy
 import numpy as np
 import skinglow_blender as sb
+from skinglow_blender.show.skin_material import skin_node
 
 from inside.bad_input import refused
 from inside.scenes import add_light, black_material, camera_above, depsgraph, patch, read_exr, render_settings, table_1
@@ -186,3 +187,111 @@ def check_several_skins(work):
     assert {path.parent.name for path in files} == {"One", "Two"}
     (lut,) = [p for p in sb.export_povray(depsgraph(), work / "one", obj=bpy.data.objects["One"]) if p.suffix == ".exr"]
     assert lut.parent == work / "one"
+
+
+def check_textured_head_with_a_thickness_picture_is_one_render(work):
+    """Surface and thickness are pictures in a UV map that is not the first; Blender renders the sum."""
+    add_light("Sun", "SUN", energy=1.0, location=(0.0, 0.0, 2.0)).data.angle = 0.0
+    obj = patch(size=2.0, material=matt_material())
+    for name, turned in (("Other", False), ("Skin", True)):
+        layer = obj.data.uv_layers.new(name=name)
+        corners = [(0, 0), (1, 0), (1, 1), (0, 1)]
+        layer.data.foreach_set("uv", np.ravel(corners[1:] + corners[:1] if turned else corners).astype(np.float32))
+    obj.data.uv_layers["Skin"].active_render = True
+    sb.make_skin(obj, thickness=[9.0] * 4, mode="paper", strength=0.2)
+    tree = obj.active_material.node_tree
+    node = skin_node(obj.active_material)
+    textures = {}
+    for name, socket in (("colors", color_of(obj)), ("fractions", None)):
+        image = bpy.data.images.new(name, 8, 8, float_buffer=True, is_data=True)
+        pixels = np.ones((8, 8, 4), np.float32)
+        pixels[:, :, :3] = np.random.default_rng(len(name)).uniform(0.05, 0.8, (8, 8, 3 if socket else 1))
+        image.pixels.foreach_set(pixels.ravel())
+        textures[name] = tree.nodes.new("ShaderNodeTexImage")
+        textures[name].image = image
+        if socket:
+            tree.links.new(textures[name].outputs["Color"], socket)
+    scaled = tree.nodes.new("ShaderNodeMath")
+    scaled.operation, scaled.inputs[1].default_value = "MULTIPLY", 3.0
+    tree.links.new(textures["fractions"].outputs["Color"], scaled.inputs[0])
+    tree.links.new(scaled.outputs[0], node.inputs["Thickness"])
+    camera_above(1.6)
+    scene = render_settings(48, 48)
+    scene.render.filepath = str(work / "textured.exr")
+    bpy.ops.render.render(write_still=True)
+    expected = read_exr(work / "textured.exr")
+    files = sb.export_povray(depsgraph(), work / "textured")
+    assert not files.notes, files.notes
+    assert "Skinglow_Part" not in (work / "textured" / "scene.pov").read_text()
+    povray(work / "textured", "-A")
+    shown = read_exr(work / "textured" / "scene.exr")
+    rms = float(np.sqrt(np.mean((shown - expected) ** 2)))
+    assert np.ptp(expected, axis=(0, 1)).min() > 0.1 and rms <= 1 / 255, rms
+    # What cannot be shown is told, and the measured thickness is taken.
+    textures["fractions"].projection = "SPHERE"
+    node.inputs["Mask"].default_value = 0.5
+    notes = sb.export_povray(depsgraph(), work / "textured").notes
+    assert len(notes) == 2 and "Thickness of the Skinglow node comes from" in notes[0], notes
+    assert "Mask of the Skinglow node" in notes[1], notes
+    assert not (work / "textured" / "thickness.exr").exists()
+    assert "Skinglow_Part" in (work / "textured" / "scene.pov").read_text()
+    return rms
+
+
+def matt_material():
+    """White, and the same in all directions."""
+    material = black_material("Matt")
+    tree = material.node_tree
+    shader = tree.nodes.new("ShaderNodeBsdfDiffuse")
+    shader.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    output = next(node for node in tree.nodes if node.bl_idname == "ShaderNodeOutputMaterial")
+    tree.links.new(shader.outputs[0], output.inputs["Surface"])
+    return material
+
+
+def color_of(obj):
+    """The color of a matt material."""
+    nodes = obj.active_material.node_tree.nodes
+    return next(node for node in nodes if node.bl_idname == "ShaderNodeBsdfDiffuse").inputs["Color"]
+
+
+#: Kind, settings, and the difference allowed, of the brightest place: what docs/povray.md says.
+WHITE_PLANE = {
+    "point": ("POINT", dict(shadow_soft_size=0.0), 0.005),
+    "ball": ("POINT", dict(shadow_soft_size=0.3), 0.005),
+    "sun": ("SUN", dict(angle=0.0), 0.005),
+    "spot": ("SPOT", dict(shadow_soft_size=0.0, spot_size=1.2, spot_blend=0.5), 0.005),
+    "area": ("AREA", dict(size=0.6), 0.005),
+    "spread": ("AREA", dict(size=0.01, spread=1.0), 0.15),
+}
+
+
+def check_white_plane_under_each_kind_of_light(work):
+    obj = patch(size=4.0, material=matt_material())
+    sb.make_skin(obj, thickness=[12.0] * 4, mode="paper", strength=0.0)
+    camera_above(3.0)
+    scene = render_settings(12, 12)
+    scene.cycles.light_sampling_threshold = 0.0  # faint light is not left to chance
+    found = {}
+    for name, (kind, settings, allowed) in WHITE_PLANE.items():
+        light = add_light(name, kind, energy=1.0 if kind == "SUN" else 100.0, location=(0.3, 0.2, 2.0))
+        light.rotation_euler = (0.2, 0.1, 0.0)
+        for key, value in settings.items():
+            setattr(light.data, key, value)
+        # A light with an extent is a random place of it in each sample.
+        random = name in ("ball", "area")
+        scene.cycles.samples = 256 if random else 1
+        scene.render.filepath = str(work / f"{name}.exr")
+        bpy.ops.render.render(write_still=True)
+        expected = read_exr(work / f"{name}.exr")
+        notes = sb.export_povray(depsgraph(), work / name).notes
+        assert len(notes) == (name == "spread") and all("up to 15 %" in note for note in notes), notes
+        povray(work / name, "-A")
+        shown = read_exr(work / name / "scene.exr")
+        difference = shown - expected
+        if random:
+            difference = difference.reshape(4, 3, 4, 3, 3).mean(axis=(1, 3))
+        found[name] = float(np.abs(difference).max() / expected.max())
+        assert expected.max() > 0.1 and found[name] <= allowed, found
+        bpy.data.objects.remove(light)
+    return found

@@ -73,6 +73,35 @@ def check_through_the_shape(work):
     return rms
 
 
+def check_light_per_pixel(work):
+    """A mirrored ear's lobe with a sharp edge, lit by lights that are close: at most 1/255 of the brightest."""
+    for name, kind, place in (("Near", "POINT", (0.5, 0.3, -1.2)), ("Cone", "SPOT", (-0.8, 0.2, -1.6))):
+        light = add_light(name, kind, energy=40.0, color=(1.0, 0.5, 0.2), location=place)
+        light.rotation_euler = (3.0, -0.3, 0.0)
+    obj = lobe(material=black_material())
+    centers = np.array([polygon.center.x for polygon in obj.data.polygons])
+    obj.data.polygons.foreach_set("use_smooth", centers > -2.0)
+    obj.rotation_euler, obj.scale = (0.2, 0.3, 0.4), (-0.1, 0.1, 0.1)
+    bpy.context.view_layer.update()
+    thickness = 2.0 + 0.3 * np.array([vertex.co.x for vertex in obj.data.vertices])
+    sb.make_skin(obj, thickness=thickness, mode="physical", weights="surface", unit_mm=10.0, strength=3.0)
+    camera_above(1.4, (0.0, 0.0, 10.0))
+    render_settings(SIZE, SIZE)
+    expected = render(work / "pixels.exr")
+    assert not sb.export_povray(depsgraph(), work / "pixels", surface=False).notes
+    povray(work / "pixels", "-A")
+    shown = read_exr(work / "pixels" / "scene.exr")
+    brightest = expected.max()
+    lit = expected.max(axis=2) > 0.0
+    assert lit.sum() > 1000 and np.ptp(expected[lit], axis=0).max() > 0.5 * brightest
+    rms = float(np.sqrt(np.mean((shown[lit] - expected[lit]) ** 2)) / brightest)
+    assert rms <= 1 / 255, rms
+    # One weight for the whole skin is another picture, which is told.
+    per_object = sb.export_povray(depsgraph(), work / "object", surface=False, compute_lut=True)
+    assert "varies over the surface" in per_object.notes[0], per_object.notes
+    return rms
+
+
 def check_tiles_are_exact(work):
     """The image that POV-Ray reads holds the tiles as they are, and a dark row above them."""
     obj = ball("Ball", material=black_material())
