@@ -120,10 +120,10 @@ def main(job: dict[str, Any]) -> dict[str, Any]:
     step("Cycles: transmitted light only")
     made.render_transmitted_light()
     step("exporting the scene to POV-Ray")
-    made.scene.camera = made.cameras[""]
+    # The ear alone: eyes and hair are no skin, and are not written.
+    made.scene.camera = made.cameras["_ear"]
     sb.export_povray(bpy.context.evaluated_depsgraph_get(), made.out / "povray")
     # For cross-checking, the POV-Ray macros compute the lookup themselves, from the lights and the base.
-    made.scene.camera = made.cameras["_ear"]
     sb.export_povray(
         bpy.context.evaluated_depsgraph_get(), made.out / "povray_light_through", surface=False, compute_lut=True
     )
