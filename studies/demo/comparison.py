@@ -15,9 +15,9 @@ ALLOWED_RMS = 1.0 / 255.0
 
 def render_and_compare(out: Path, size: int, progress: Progress) -> dict[str, Any]:
     """Writes POV-Ray's pictures and difference.png to `out`; returns the numbers of the comparison."""
-    progress.say("POV-Ray: the head")
+    progress.say("POV-Ray: the ear, about 5 s")
     _povray(out / "povray", out / "table1_povray.png", ["+FN", "+R3"], size, progress)
-    progress.say("POV-Ray: transmitted light only")
+    progress.say("POV-Ray: transmitted light only, two pictures, about 20 s")
     _povray(out / "povray_light_through", out / "light_through_povray.exr", ["+FE", "+R8"], size, progress)
     _povray(out / "povray_light_through", out / "light_through_povray.png", ["+FN", "+R8"], size, progress)
     progress.say("comparing both")

@@ -143,7 +143,7 @@ def hosts(path: Path, out: Path, numbers: dict[str, Any]) -> None:
     """Both programs: the complete pictures (top), and the transmitted light with its difference (bottom)."""
     compared = numbers["comparison"]
     titles = {
-        "table1_paper.png": f"Blender {numbers['blender']} (Cycles)",
+        "table1_paper_ear.png": f"Blender {numbers['blender']} (Cycles)",
         "table1_povray.png": "POV-Ray 3.7: no indirect light, no specular",
         "": "",
         "light_through_blender.png": "Blender: transmitted light only",

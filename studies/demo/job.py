@@ -47,8 +47,13 @@ class Studio:
         }
         # Of rigs, and the reference point of distances.
         self.center = Vector((job["middle_x"], *ear.center[1:]))
+        self.picture_s = 1.0 + job["render_s_per_sample"] * job["size"] ** 2 * job["samples"]
         self.tables: dict[str, np.ndarray] = {}
         self.lights: dict[str, Any] = {}
+
+    def takes(self, pictures: int) -> str:
+        """How long that many pictures take at the pace of the first one."""
+        return f"{pictures} pictures, about {pictures * self.picture_s:.0f} s"
 
     def render(self, name: str, view: str) -> None:
         self.scene.camera = self.cameras[view]
@@ -110,20 +115,20 @@ class Studio:
 def main(job: dict[str, Any]) -> dict[str, Any]:
     started = time.monotonic()
     step = Steps(of=9)
-    step("opening the scene of the first picture")
+    step("opening the scene of the first picture: a second")
     made = Studio(job)
     stage.add_rig(made.scene, job["rigs"]["table1"], made.center)
     sb.register()
     state = sb.make_skin(made.head, mode="paper", weights="object", strength=STRENGTH, reference_point=made.center)
-    step("Cycles: lights of Table 1")
+    step(f"Cycles: lights of Table 1, {made.takes(4)}")
     made.show("table1")
-    step("Cycles: transmitted light only")
+    step(f"Cycles: transmitted light only, {made.takes(1)}")
     made.render_transmitted_light()
-    step("exporting the scene to POV-Ray")
-    made.scene.camera = made.cameras[""]
+    step("exporting the scene to POV-Ray: a few seconds")
+    # The ear alone: eyes and hair are no skin, and are not written.
+    made.scene.camera = made.cameras["_ear"]
     sb.export_povray(bpy.context.evaluated_depsgraph_get(), made.out / "povray")
     # For cross-checking, the POV-Ray macros compute the lookup themselves, from the lights and the base.
-    made.scene.camera = made.cameras["_ear"]
     sb.export_povray(
         bpy.context.evaluated_depsgraph_get(), made.out / "povray_light_through", surface=False, compute_lut=True
     )
@@ -131,15 +136,15 @@ def main(job: dict[str, Any]) -> dict[str, Any]:
     for name in ("Light1", "Light3"):
         bpy.data.objects.remove(bpy.data.objects[name])
     for color, values in (("orange", ORANGE), ("blue", BLUE)):
-        step(f"Cycles: {color} light behind the ear")
+        step(f"Cycles: {color} light behind the ear, {made.takes(4)}")
         bpy.data.objects["Light2"].data.color = values
         made.show(color)
-    step("Cycles: the rim lights")
+    step(f"Cycles: the rim lights, {made.takes(4)}")
     stage.add_rig(made.scene, job["rigs"]["rim"], made.center)
     made.show("rim")
-    step("Cycles: mode physical, a light behind the ear")
+    step(f"Cycles: mode physical, a light behind the ear, {made.takes(4)}")
     made.show_physical()
-    step("Cycles: the transmitted light as an AOV")
+    step(f"Cycles: the transmitted light as an AOV, {made.takes(2)}")
     made.show_light_output()
     np.savez(made.out / "tables.npz", **made.tables)
     return {

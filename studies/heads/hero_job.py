@@ -55,6 +55,7 @@ def main(job: dict[str, Any]) -> dict[str, Any]:
         "orientation": {"up": placed.orientation.up, "facing": placed.orientation.facing},
         "middle_x": placed.size.middle_x,
         "unit_mm": placed.unit_mm,
+        "render_s_per_sample": (ended - solved) / (job["size"] ** 2 * job["samples"]),  # and pixel
         "seconds": {"solving": round(solved - started, 1), "rendering": round(ended - solved, 1)},
     }
 
@@ -85,4 +86,4 @@ def rendering_s(size: int, samples: int) -> float:
 
 
 def _seconds(about: float) -> str:
-    return f"about {about:.0f} s"
+    return f"about {about:.0f} s on two cores with nothing else to do"

@@ -10,6 +10,8 @@ from studies.heads.human_head import Array, HumanHead, Part
 
 #: Vertices nearer than this to where the bust was cut do not glow, meters.
 CUT_MARGIN_M = 0.02
+#: From the mouth's inside and the sockets outward the glow comes up over this.
+INSIDE_MARGIN_M = 0.004
 MASK_GROUP = "glow"
 
 
@@ -17,7 +19,7 @@ def build(head: HumanHead, levels: int = 2) -> bpy.types.Object:
     """Adds the person to the scene; returns the skin, whose first material slot alone is skin."""
     body = _object(head.body)
     density = {"hair": hair.scalp(head.body), "brow": hair.brows(head.body)}
-    for name, values in {**density, "keep": _away_from_the_cut(head.body)}.items():
+    for name, values in {**density, "keep": _glowing(head)}.items():
         body.data.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values.astype(np.float32))
     neutral = body.data.attributes.new("neutral", "FLOAT_VECTOR", "POINT")
     neutral.data.foreach_set("vector", head.body.neutral.astype(np.float32).ravel())
@@ -61,15 +63,22 @@ def subdivide(thing: bpy.types.Object, levels: int) -> None:
     bpy.data.meshes.remove(coarse)
 
 
-def _away_from_the_cut(body: Part) -> Array:
-    """1 where skin glows, 0 near edges of one face; the lids and the mouth are closed surfaces, so that is the cut."""
+def _glowing(head: HumanHead) -> Array:
+    """1 where skin glows, 0 at the cut of the bust, at the mouth's inside, and on lids, behind which there are eyes."""
+    body = head.body
     edges = np.sort(np.concatenate([body.faces[:, [k, (k + 1) % 4]] for k in range(4)]), axis=1)
     unique, count = np.unique(edges, axis=0, return_counts=True)
-    border = body.vertices[np.unique(unique[count == 1])]
-    if not len(border):
-        return np.ones(len(body.vertices))
-    distance = np.array([np.linalg.norm(border - point, axis=1).min() for point in body.vertices])
-    return np.clip(distance / CUT_MARGIN_M - 1.0, 0.0, 1.0)
+    dark = [(body.vertices[np.unique(unique[count == 1])], CUT_MARGIN_M, 2.0 * CUT_MARGIN_M)]
+    dark.append((body.vertices[np.unique(body.faces[head.is_inside])], 0.0, INSIDE_MARGIN_M))
+    for eye in head.eyes:
+        low, high = eye.vertices.min(axis=0), eye.vertices.max(axis=0)
+        radius = 0.5 * float((high - low).max())
+        dark.append((0.5 * (low + high)[None], 1.35 * radius, 1.75 * radius))
+    keep = np.ones(len(body.vertices))
+    for points, none, full in dark:
+        distance = np.array([np.linalg.norm(points - vertex, axis=1).min() for vertex in body.vertices])
+        keep = np.minimum(keep, np.clip((distance - none) / (full - none), 0.0, 1.0))
+    return keep
 
 
 def _mask_group(body: bpy.types.Object) -> None:

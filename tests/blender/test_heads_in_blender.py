@@ -1,0 +1,69 @@
+"""A head of a file in Blender, as the demo loads it: upright, in meters, facing front, however the file has it."""
+
+import json
+import subprocess
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+import trimesh
+from hosts import host_named
+
+from studies.heads.orientation import Orientation
+from tests.python.made_head import head
+
+#: File, how it has the head, and units per meter.
+FILES = {
+    "turned.ply": (Orientation("-X", "+Y"), 1000.0),
+    "y_up.obj": (Orientation("+Y", "+Z"), 100.0),
+    "z_up.obj": (Orientation("+Z", "-Y"), 1.0),
+    "standard.glb": (Orientation("+Y", "+Z"), 1.0),
+}
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("heads")
+    vertices, triangles = head()
+    for name, (way, units) in FILES.items():
+        mesh = trimesh.Trimesh(units * vertices @ way.rotation(), triangles, process=False)
+        mesh.export(folder / name)
+    results = folder / "results.json"
+    script = Path(__file__).with_name("heads_inside.py")
+    files = [str(folder / name) for name in FILES]
+    host = host_named("4.5")
+    host.require()
+    command = host.command(script, [str(results), str(folder), *files])
+    done = subprocess.run(
+        command, env=host.environment(folder), capture_output=True, text=True, timeout=600, check=False
+    )
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-4000:]
+    return json.loads(results.read_text()), folder
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_head_of_a_file_stands_upright_in_meters_and_faces_front(found, name):
+    vertices, _ = head()
+    about = found[0][name]
+    assert about["low"] == pytest.approx(vertices.min(axis=0).tolist(), abs=0.004)
+    assert about["high"] == pytest.approx(vertices.max(axis=0).tolist(), abs=0.004)
+    assert about["nose"] == pytest.approx([0.0, -0.122, 0.035], abs=0.01)
+    assert sorted(np.sign(ear[0]) for ear in about["ears"]) == [-1.0, 1.0]
+
+
+def test_the_first_picture_shows_light_through_the_ear(found):
+    results, folder = found
+    assert results["hero"]["unit_mm"] == 1000.0
+    assert results["hero"]["orientation"] == {"up": "+Y", "facing": "+Z"}
+    assert results["denoises"]
+    picture = plt.imread(folder / "hero.png")
+    assert picture.shape[:2] == (48, 48)
+    red = picture[:, :, 0] - picture[:, :, 2]
+    assert red.max() > 0.2
+    for name in ("preview.png", "head.blend"):
+        assert (folder / name).is_file()
+
+
+def test_a_head_that_cannot_be_used_is_told_in_words(found):
+    assert "--unit" in found[0]["error"]["error"]

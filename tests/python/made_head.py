@@ -1,0 +1,46 @@
+"""A head of balls and a tube, on which guesses about heads can be tried."""
+
+import numpy as np
+
+
+def ball(center, radii, count=48):
+    """An ellipsoid: vertices and triangles."""
+    polar, around = np.meshgrid(np.linspace(0.0, np.pi, count), np.linspace(0.0, 2.0 * np.pi, 2 * count), indexing="ij")
+    unit = np.stack([np.sin(polar) * np.cos(around), np.sin(polar) * np.sin(around), np.cos(polar)], axis=-1)
+    return np.array(center) + unit.reshape(-1, 3) * radii, grid(count, 2 * count)
+
+
+def tube(bottom, top, radius, count=48):
+    """An open cylinder along z."""
+    height, around = np.meshgrid(np.linspace(bottom, top, count), np.linspace(0.0, 2.0 * np.pi, count), indexing="ij")
+    points = np.stack([radius * np.cos(around), radius * np.sin(around) + 0.01, height], axis=-1)
+    return points.reshape(-1, 3), grid(count, count)[:, ::-1]
+
+
+def grid(rows, columns):
+    index = np.arange(rows * columns).reshape(rows, columns)
+    a, b, c, d = index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]
+    return np.concatenate([np.stack(t, axis=-1).reshape(-1, 3) for t in ((a, b, c), (a, c, d))])
+
+
+def head(ears=("left", "right")):
+    """Meters, Z up, facing -Y: a skull, a jaw, a nose, a brow, lips, ears and an open neck."""
+    parts = [
+        ball((0.0, 0.0, 0.08), (0.076, 0.098, 0.095)),
+        ball((0.0, -0.040, 0.0), (0.055, 0.055, 0.070)),
+        ball((0.0, -0.100, 0.035), (0.012, 0.022, 0.024), 20),
+        ball((0.0, -0.088, 0.075), (0.045, 0.012, 0.010), 20),
+        ball((0.0, -0.092, -0.010), (0.024, 0.010, 0.008), 20),
+        tube(-0.13, 0.02, 0.055),
+    ]
+    parts += [ball((side, 0.01, 0.045), (0.016, 0.014, 0.031), 24) for side in _sides(ears)]
+    vertices, triangles, count = [], [], 0
+    for points, corners in parts:
+        vertices.append(points)
+        triangles.append(corners + count)
+        count += len(points)
+    return np.concatenate(vertices), np.concatenate(triangles)
+
+
+def _sides(ears):
+    return [x for name, x in (("left", 0.082), ("right", -0.082)) if name in ears]
