@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -41,7 +42,7 @@ def bounce(scene: bpy.types.Scene, times: int) -> None:
 
 def render(scene: bpy.types.Scene, samples: int, seed: int, folder: Path) -> Picture:
     scene.cycles.samples, scene.cycles.seed = samples, seed
-    path = folder / "render.exr"
+    path = folder / f"render-{os.getpid()}.exr"  # several may render into a folder
     scene.render.filepath = str(path)
     _, cpu = timed(bpy.ops.render.render, write_still=True)
     image = bpy.data.images.load(str(path))
@@ -49,6 +50,7 @@ def render(scene: bpy.types.Scene, samples: int, seed: int, folder: Path) -> Pic
     pixels = np.empty(width * height * 4, np.float32)
     image.pixels.foreach_get(pixels)
     bpy.data.images.remove(image)
+    path.unlink()
     return Picture(pixels.reshape(height, width, 4)[::-1].astype(np.float64), cpu)
 
 

@@ -42,7 +42,7 @@ def error_against_time(path: Path, head: Results) -> None:
 
 def pictures(path: Path, head: Results) -> None:
     """Rows are rigs. Exposed alike in a row; what has no unit of light is shown at its best strength."""
-    shown = {rung: RUNGS[rung].replace(", ", ",\n").replace("the shape", "the\nshape") for rung in RUNGS}
+    shown = {rung: RUNGS[rung].replace(", ", ",\n").replace("EEVEE's ", "EEVEE's\n") for rung in RUNGS}
     columns = {**shown, "equal": "walk in the time\nof 0.8 mm", "walk": "walk,\nconverged", "mc": "Monte Carlo"}
     rows, axes = plt.subplots(
         len(head.rigs), len(columns), figsize=(1.45 * len(columns), 1.5 * len(head.rigs) + 0.5), squeeze=False

@@ -28,7 +28,7 @@ def ladder(found: list[Results], options: argparse.Namespace) -> str:
     heading = ["rung"]
     for head in found:
         heading += [f"{head.title}: error", "at best strength", "against the walk, at best", "picture"]
-    heading.append("once per mesh")
+    heading.append("once per mesh, each head")
     rows = []
     for rung, title in RUNGS.items():
         row = [title]
@@ -41,11 +41,11 @@ def ladder(found: list[Results], options: argparse.Namespace) -> str:
                 seconds(head.mean(rung, "seconds")),
             ]
         once = [head.told["cycles"]["prepared"].get(rung) for head in found]
-        row.append("" if once[0] is None else f"{min(once):.1f} to {max(once):.1f} s")
+        row.append("" if once[0] is None else " / ".join(f"{each:.1f} s" for each in once))
         rows.append(row)
     walks = []
     for index, (samples, *_rest) in enumerate(found[0].walk_errors(found[0].rigs[0])):
-        row = [f"random walk, {samples} samples"]
+        row = [f"random walk, {samples} sample{'s' if samples > 1 else ''}"]
         for head in found:
             each = [head.walk_errors(rig)[index] for rig in head.rigs]
             row += ["", "", percent(float(np.sqrt(np.mean([e[2] ** 2 for e in each])))), seconds(each[0][1])]
