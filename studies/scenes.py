@@ -11,9 +11,10 @@ from typing import Any
 import bmesh
 import bpy
 import numpy as np
+import skinglow as sg
 from mathutils import Matrix, Vector
+from skinglow_blender.batch.rig_lights import add_lights
 
-Rig = dict[str, Any]
 HEAD_HEIGHT_M = 0.26
 
 
@@ -287,17 +288,11 @@ def light_behind_ear(scene: bpy.types.Scene, head: bpy.types.Object) -> bpy.type
     return light
 
 
-def add_rig(scene: bpy.types.Scene, rig: Rig, center: Vector) -> list[bpy.types.Object]:
-    """Adds the lights of a rig file, with its origin at `center`; replaces all other lights."""
+def add_rig(scene: bpy.types.Scene, rig: list[Any], center: Vector) -> None:
+    """Adds the lights of a rig by the add-on, its point at `center`; replaces all other lights.
+
+    rig  the arguments of skinglow.read_light_rig
+    """
     remove_lights()
-    lights = []
-    for entry in rig["lights"]:
-        data = bpy.data.lights.new(entry["name"], entry["kind"])
-        data.color, data.energy = entry["color"], entry["power"]
-        light = bpy.data.objects.new(entry["name"], data)
-        light.location = center + Vector(entry.get("position", (0, 0, 0)))
-        light.rotation_euler = Vector(entry.get("direction", (0, 0, -1))).to_track_quat("-Z", "Y").to_euler()
-        scene.collection.objects.link(light)
-        lights.append(light)
+    add_lights(scene, sg.read_light_rig(*rig), tuple(center))
     bpy.context.view_layer.update()
-    return lights

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import subprocess
-import tempfile
+import math
 from pathlib import Path
 from typing import Any
 
+import skinglow as sg
+
 from studies.hosts import Host
-from studies.paths import CLI, PROJECT
+from studies.paths import PROJECT
 from studies.progress import Progress, StudyError
 
 TABLE1 = PROJECT / "tests" / "data" / "table1.json"
@@ -17,7 +17,7 @@ CAMERA_AZIMUTH_DEGREES = 35.0  # from the front, so that an ear is in front of t
 
 
 def gather(own: Path | None, host: Host, progress: Progress) -> dict[str, Any]:
-    """{"rim": rig, "table1": rig}; a rig's origin is the reference point of the skin."""
+    """By name, what scenes.add_rig reads: "rim" and "table1"; their point is the reference point of the skin."""
     rim = own or host.datafiles / "studiolights" / "studio" / "rim.sl"
     if not rim.is_file():
         raise StudyError(f"{rim}: no such file; give a light rig with --rig")
@@ -25,12 +25,14 @@ def gather(own: Path | None, host: Host, progress: Progress) -> dict[str, Any]:
     return {"rim": _read(rim), "table1": _read(TABLE1)}
 
 
-def _read(rig: Path) -> dict[str, Any]:
-    """The rig as read by the command line; a studio light is attached to the demo's camera."""
-    camera = ["--camera-rotation", "90", "0", str(CAMERA_AZIMUTH_DEGREES)] if rig.suffix == ".sl" else []
-    with tempfile.TemporaryDirectory() as folder:
-        plain = Path(folder) / "rig.json"
-        done = subprocess.run([CLI, "rig", rig, *camera, "-o", plain], capture_output=True, text=True)
-        if done.returncode != 0:
-            raise StudyError(done.stderr.strip())
-        return json.loads(plain.read_text())
+def _read(path: Path) -> list[Any]:
+    """The arguments of skinglow.read_light_rig; a studio light is attached to the demo's camera."""
+    read = [
+        str(path.resolve()),
+        [math.pi / 2.0, 0.0, math.radians(CAMERA_AZIMUTH_DEGREES)] if path.suffix == ".sl" else None,
+    ]
+    try:
+        sg.read_light_rig(*read)
+    except ValueError as error:
+        raise StudyError(str(error)) from None
+    return read

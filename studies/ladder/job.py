@@ -35,11 +35,16 @@ REPEATS = 2
 
 
 def build(job: dict[str, Any]) -> tuple[bpy.types.Scene, bpy.types.Object, Vector]:
-    """The head at real size in the dark, seen from the front of its ear."""
+    """The head at real size in the dark, seen from the front of its ear. Its mesh is that of the Monte Carlo."""
     scene = stage.empty_scene()
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
     rendering.linear_render(scene, job["size"])
-    head = stage.load_head(job)
+    with np.load(job["mesh_file"]) as file:
+        mesh = bpy.data.meshes.new("head")
+        mesh.from_pydata((file["vertices_mm"] / rendering.MM_PER_METER).tolist(), [], file["triangles"].tolist())
+    mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
+    head = bpy.data.objects.new("head", mesh)
+    scene.collection.objects.link(head)
     ear = Vector(job["center"])
     stage.aim_camera(scene, ear, job["height"], CAMERA_AZIMUTH)
     return scene, head, ear

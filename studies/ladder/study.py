@@ -103,7 +103,7 @@ class Climb:
     def job(self, head: HeadMesh) -> dict[str, Any]:
         radius = float(np.linalg.norm(head.vertices[head.ear] - head.ear_center, axis=1).max())
         return {
-            **self.source.job(),
+            "mesh_file": str(self.path("mesh.npz")),
             "rigs": {name: str(path) for name, path in RIGS.items()},
             "center": (head.ear_center / MM_PER_METER).tolist(),
             "height": 2.0 * min(radius, EAR_RADIUS_MM) / MM_PER_METER,

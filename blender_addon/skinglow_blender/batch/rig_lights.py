@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Adds the lights of a rig file to a scene temporarily."""
+"""Adds the lights of a rig file to a scene, for good or for a while."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -15,16 +15,15 @@ from ..errors import SkinError, core
 ADDED = "skinglow_rig"
 
 
-@contextmanager
-def added_lights(
+def add_lights(
     scene: bpy.types.Scene,
     rig: Any,  # noqa: ANN401  a skinglow.LightRig
     onto: tuple[float, float, float] | None,
-) -> Iterator[list[str]]:
-    """Context manager that adds the rig's lights to the scene; yields notes on what Blender's lights do not support.
+) -> tuple[list[bpy.types.Object], list[str]]:
+    """Adds the rig's lights to the scene; returns them, and notes on what Blender's lights do not support.
 
     onto  target of the rig's point, world, scene units; None: the lights are placed as in the file
-    Raises SkinError, naming the light, if one of its values is outside Blender's range.
+    Raises SkinError, naming the light, if one of its values is outside Blender's range; then none is added.
     """
     offset = Vector() if onto is None else Vector(onto) - Vector(rig.point)
     notes = list(rig.notes)
@@ -33,11 +32,30 @@ def added_lights(
         for number, light in enumerate(rig.lights):
             if light.visible:
                 _add(scene, light, light.name or f"Light {number + 1}", offset, notes, added)
+    except SkinError:
+        _remove(added)
+        raise
+    return added, notes
+
+
+@contextmanager
+def added_lights(
+    scene: bpy.types.Scene,
+    rig: Any,  # noqa: ANN401
+    onto: tuple[float, float, float] | None,
+) -> Iterator[list[str]]:
+    """Context manager with the rig's lights in the scene, as by `add_lights`; yields the notes."""
+    added, notes = add_lights(scene, rig, onto)
+    try:
         yield notes
     finally:
-        for obj in added:
-            # This also removes the object.
-            bpy.data.lights.remove(obj.data)
+        _remove(added)
+
+
+def _remove(added: list[bpy.types.Object]) -> None:
+    for obj in added:
+        # This also removes the object.
+        bpy.data.lights.remove(obj.data)
 
 
 def _add(
