@@ -36,7 +36,7 @@ def parsed(arguments: list[str]) -> argparse.Namespace:
     parser.add_argument("--eevee", metavar="PROGRAM", default="blender", help="a full Blender (default: %(default)s)")
     parser.add_argument("--program", type=Path, help="the Monte Carlo (default: it is built)")
     parser.add_argument("--photons", type=int, default=400_000, help="per channel and rig (default %(default)s)")
-    parser.add_argument("--size", type=int, default=128, metavar="PIXELS", help="(default %(default)s)")
+    parser.add_argument("--size", type=int, default=96, metavar="PIXELS", help="(default %(default)s)")
     parser.add_argument("--samples", type=int, default=256, help="of each half of the walk (default %(default)s)")
     parser.add_argument("--out", type=Path, default=Path("out/ladder"), help="(default %(default)s)")
     parser.add_argument("--no-docs", action="store_true", help="do not update docs/accuracy.md; figures go to --out")
