@@ -22,6 +22,7 @@ PARTS = {
     "skins": "Skins",
     "lights": "Each light",
 }
+CREDIT = "The ear is of a scan: Infinite, 3D Head Scan by Lee Perry-Smith, CC BY 3.0, based on a work at www.triplegangers.com."
 FILM = """
 <script>
 const pictures = document.querySelectorAll(".film div"), slide = document.querySelector(".film input");
@@ -119,6 +120,7 @@ def _sections(out: Path, numbers: dict[str, Any]) -> list[str]:
             "thickness takes an ear for a plate, and it is none.",
             _committed(out, "ladder_scan_pictures.png", "Every method, exposed alike in a row"),
             _committed(out, "ladder_scan.png", "Error against run time"),
+            f"<p class=dim>{CREDIT}</p>",
         ),
         _section(
             "povray",
