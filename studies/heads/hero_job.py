@@ -78,11 +78,11 @@ def make_skin(head: bpy.types.Object) -> None:
 
 def solving_s(head: bpy.types.Object) -> float:
     """What measuring, tiles and solving take about, on two cores with nothing else to do."""
-    return 4.0 + len(head.data.vertices) / 10_000.0
+    return 4.0 + len(head.data.vertices) / 5_000.0
 
 
 def rendering_s(size: int, samples: int) -> float:
-    return 3.0 + 1.1e-6 * size**2 * samples
+    return 3.0 + 1.6e-6 * size**2 * samples
 
 
 def _seconds(about: float) -> str:

@@ -19,7 +19,7 @@ WARM: Color = (1.0, 0.72, 0.45)
 BULB_W, BULB_RADIUS_M = 35.0, 0.01
 EXPOSURE_STOPS = 1.1
 #: From the ear, of an ear on +X: x out of the head, y to the back, z up, meters.
-BULB, FILL, RIM = (0.0, 0.14, -0.04), (-0.22, -0.58, 0.42), (-0.5, 0.4, 0.5)
+BULB, FILL, RIM = (0.0, 0.14, -0.04), (-0.42, -0.58, 0.30), (-0.5, 0.4, 0.5)
 
 
 def settings(scene: bpy.types.Scene, width: int, height: int, samples: int) -> None:
@@ -82,7 +82,7 @@ def ear_of(placed: Placed) -> Ear:
 def lights(scene: bpy.types.Scene, ear: Ear) -> bpy.types.Object:
     """A warm bulb behind the ear, which is returned, a dim cool fill before and a rim from the far side."""
     behind = bulb(scene, ear)
-    _light(scene, "fill", "AREA", ear, FILL, 2.2, (0.82, 0.88, 1.0), 0.5)
+    _light(scene, "fill", "AREA", ear, FILL, 2.6, (0.82, 0.88, 1.0), 0.3)
     _light(scene, "rim", "AREA", ear, RIM, 4.0, (0.60, 0.75, 1.0), 0.3)
     bpy.context.view_layer.update()
     return behind

@@ -23,17 +23,17 @@ def grid(rows, columns):
     return np.concatenate([np.stack(t, axis=-1).reshape(-1, 3) for t in ((a, b, c), (a, c, d))])
 
 
-def head(ears=("left", "right")):
+def head(ears=("left", "right"), detail=48):
     """Meters, Z up, facing -Y: a skull, a jaw, a nose, a brow, lips, ears and an open neck."""
     parts = [
-        ball((0.0, 0.0, 0.08), (0.076, 0.098, 0.095)),
-        ball((0.0, -0.040, 0.0), (0.055, 0.055, 0.070)),
-        ball((0.0, -0.100, 0.035), (0.012, 0.022, 0.024), 20),
-        ball((0.0, -0.088, 0.075), (0.045, 0.012, 0.010), 20),
-        ball((0.0, -0.092, -0.010), (0.024, 0.010, 0.008), 20),
-        tube(-0.13, 0.02, 0.055),
+        ball((0.0, 0.0, 0.08), (0.076, 0.098, 0.095), detail),
+        ball((0.0, -0.040, 0.0), (0.055, 0.055, 0.070), detail),
+        ball((0.0, -0.100, 0.035), (0.012, 0.022, 0.024), detail // 2),
+        ball((0.0, -0.088, 0.075), (0.045, 0.012, 0.010), detail // 2),
+        ball((0.0, -0.092, -0.010), (0.024, 0.010, 0.008), detail // 2),
+        tube(-0.13, 0.02, 0.055, detail),
     ]
-    parts += [ball((side, 0.01, 0.045), (0.016, 0.014, 0.031), 24) for side in _sides(ears)]
+    parts += [ball((side, 0.01, 0.045), (0.016, 0.014, 0.031), detail // 2) for side in _sides(ears)]
     vertices, triangles, count = [], [], 0
     for points, corners in parts:
         vertices.append(points)
