@@ -31,7 +31,7 @@ from ..table.shape_light import (
 )
 from ..table.skin_tables import Table
 from ..thickness import thickness_attribute
-from ..thickness.tile_attribute import TILES_OF_MESH, is_of_this_mesh, rows_of
+from ..thickness.tile_attribute import TILES_OF_MESH, encloses_flesh, is_of_this_mesh, rows_of
 from .newest_wins import NewestWins
 
 #: Fraction of the tiled area that may be covered twice, or lie between two tiles.
@@ -57,6 +57,11 @@ LINKED = Unfit(
     "make the skin in that file, or make object and data local",
 )
 ALL_THICK = Unfit("it is so thick everywhere that no light comes through", "look whether Unit is right")
+NO_FLESH = Unfit(
+    "its faces enclose no flesh, as an open sheet does",
+    "close the mesh, or give it thickness: a Solidify modifier with Fill, applied (Object > Apply > Visual Geometry to "
+    "Mesh), then Repair",
+)
 EDIT_MODE = Unfit("it is in Edit Mode", "leave it (Tab)")
 OVERLAPPING = Unfit("its modifiers show the same faces more than once, as Mirror and Array do", APPLY)
 NO_NODES = Unfit(
@@ -173,7 +178,7 @@ def _reason_without_tiles(obj: bpy.types.Object, mesh: ShownMesh) -> Unfit | Non
     if TILES_OF_MESH not in obj.data:
         return LINKED if obj.data.library is not None else NO_TILES
     if rows_of(obj.data) == 0:
-        return ALL_THICK
+        return ALL_THICK if encloses_flesh(obj.data) else NO_FLESH
     if not is_of_this_mesh(obj.data):
         return EDITED
     return MIXED if mesh.texels is None or not mesh.texels.any() else None
@@ -262,6 +267,7 @@ def light_of(skin: Skin, reading: SceneReading) -> Light:
     return Light(
         lights=tuple(light.signature[1:] for light in lights),
         core_lights=tuple(make_light(light) for light in lights),
+        shadowless=tuple(i for i, light in enumerate(lights) if not light.casts_shadows),
         world=tuple(world.ravel().tolist()) if world is not None else (),
         frame=skin.shape.frame,
         reentries=skin.shape.reentries,
