@@ -132,6 +132,13 @@ def is_synchronous(mode: str) -> bool:
     return bpy.app.background or mode == "RENDER"
 
 
+def start(depsgraph: bpy.types.Depsgraph) -> None:
+    """Begins an update of skins that are lit through their shape, before their nodes are changed."""
+    if SESSION.shown_meshes is None:
+        SESSION.shown_meshes = ShownMeshes()
+    SESSION.shown_meshes.start(depsgraph)
+
+
 def prepare(obj: bpy.types.Object, skin: Skin, depsgraph: bpy.types.Depsgraph, has_nodes: bool) -> ShapeState:
     """Reads the mesh of a skin that is lit through its shape, and finds out whether it can be.
 
@@ -149,8 +156,6 @@ def _reason_of_mesh(
     if evaluated.mode == "EDIT" or obj.mode == "EDIT":
         # What was shown before goes on being shown: nothing is solved in a mesh that is being edited.
         return None if state.shown is not None else EDIT_MODE
-    if SESSION.shown_meshes is None:
-        SESSION.shown_meshes = ShownMeshes()
     mesh = SESSION.shown_meshes.read(evaluated, depsgraph)
     settings = skin.shape
     key = BodyKey(

@@ -50,6 +50,11 @@ class ShownMeshes:
 
     def __init__(self) -> None:
         self._last: dict[tuple[str, str], ShownMesh] = {}
+        self._reported: set[str] = set()
+
+    def start(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Starts a pass over a depsgraph, before anything is deleted in it: its reports may point to that."""
+        self._reported = {key_of(update.id) for update in depsgraph.updates if update.is_updated_geometry}
 
     def read(self, obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> ShownMesh:
         """The mesh of an evaluated object."""
@@ -60,7 +65,7 @@ class ShownMeshes:
             # Blender does not report all changes, in renders none, so what is fast to read is compared.
             vertices = vertices_of(mesh)
             is_there = old is not None and address and address == old.address
-            if is_there and np.array_equal(old.vertices, vertices) and not _is_reported(depsgraph, me, key_of(mesh)):
+            if is_there and np.array_equal(old.vertices, vertices) and self._reported.isdisjoint((me, key_of(mesh))):
                 # Corners are many, and the viewport reports what changes them alone.
                 if depsgraph.mode == "VIEWPORT" and old.corner_count == len(mesh.loops):
                     return old
@@ -88,11 +93,6 @@ class ShownMeshes:
 
 def _same(a: np.ndarray | None, b: np.ndarray | None) -> bool:
     return a is b or (a is not None and b is not None and np.array_equal(a, b))
-
-
-def _is_reported(depsgraph: bpy.types.Depsgraph, *keys: str) -> bool:
-    """Whether Blender reports a change of a mesh by the keys of its data."""
-    return any(update.is_updated_geometry and key_of(update.id) in keys for update in depsgraph.updates)
 
 
 def corner_texels(mesh: bpy.types.Mesh) -> np.ndarray | None:
