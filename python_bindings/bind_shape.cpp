@@ -92,14 +92,15 @@ py::array exitance_error_array(const Shape& self, py::handle irradiance, const p
 
 LitShape lit_by_arrays(const Shape& self, py::handle lights, const std::optional<Environment>& environment,
                        const std::optional<Occluders>& occluders, std::vector<std::size_t> excluded,
-                       int reentries, int shadow_samples, double solver_tolerance,
-                       const std::optional<LitShape>& previous, py::handle occluder_frame,
-                       const py::object& progress) {
+                       std::vector<std::size_t> shadowless, int reentries, int shadow_samples,
+                       double solver_tolerance, const std::optional<LitShape>& previous,
+                       py::handle occluder_frame, const py::object& progress) {
     const PreparedRig rig = numpy::to_rig(lights);
     const ShapeLightOptions options{
         environment ? &*environment : nullptr,
         occluders ? &*occluders : nullptr,
         std::move(excluded),
+        std::move(shadowless),
         reentries,
         shadow_samples,
         solver_tolerance,
@@ -171,6 +172,7 @@ void bind_shape(py::module_& m) {
                                })
         .def_property_readonly("cell_mm", [](const Shape& self) { return self.options().cell_mm; })
         .def_property_readonly("bytes", &Shape::bytes)
+        .def_property_readonly("enclosed_fraction", &Shape::enclosed_fraction)
         .def("parts",
              [](const Shape& self) {
                  py::list list;
@@ -180,9 +182,9 @@ void bind_shape(py::module_& m) {
         .def("exitance", &exitance_of_array, "irradiance"_a, "progress"_a, "See skinglow.Shape.exitance.")
         .def("exitance_error", &exitance_error_array, "irradiance"_a, "progress"_a,
              "See skinglow.Shape.exitance_error.")
-        .def("light", &lit_by_arrays, "lights"_a, "environment"_a, "occluders"_a, "excluded"_a, "reentries"_a,
-             "shadow_samples"_a, "solver_tolerance"_a, "previous"_a, "occluder_frame"_a, "progress"_a,
-             "See skinglow.Shape.light.")
+        .def("light", &lit_by_arrays, "lights"_a, "environment"_a, "occluders"_a, "excluded"_a,
+             "shadowless"_a, "reentries"_a, "shadow_samples"_a, "solver_tolerance"_a, "previous"_a,
+             "occluder_frame"_a, "progress"_a, "See skinglow.Shape.light.")
         .def("with_tissue", &in_tissue<Shape>, "tissue"_a, "See skinglow.Shape.with_tissue.");
 }
 

@@ -69,6 +69,8 @@ class Shape:
     @property
     def bytes(self) -> int: ...
     @property
+    def enclosed_fraction(self) -> float: ...
+    @property
     def cell_mm(self) -> float: ...
     def parts(self) -> list[dict[str, Any]]: ...
     def exitance(self, irradiance: ArrayLike, progress: Callable[[float], bool] | None) -> NDArray[np.float64]: ...
@@ -78,6 +80,7 @@ class Shape:
         environment: Environment | None,
         occluders: Occluders | None,
         excluded: Sequence[int],
+        shadowless: Sequence[int],
         reentries: int,
         shadow_samples: int,
         solver_tolerance: float,

@@ -121,6 +121,7 @@ class Shape:
 
         cell_mm                         edge of the cells, as given or chosen; parts thinner than it have smaller ones
         points, parts, points_in_parts  numbers; points in no part are taken to be thick, with a half-space's exitance
+        enclosed                        fraction of the points with flesh behind them: none of an open sheet
         ready_parts, cells, bytes       of the parts that light fell on
         lost_area_fraction              largest of the parts': where it is not small, the cells are too large
         """
@@ -130,6 +131,7 @@ class Shape:
             "points": len(self.points),
             "parts": len(parts),
             "points_in_parts": sum(len(part.points) for part in parts),
+            "enclosed": self._shape.enclosed_fraction,
             "ready_parts": sum(part.is_ready for part in parts),
             "cells": sum(part.cells for part in parts),
             "bytes": self.bytes,
@@ -161,6 +163,7 @@ class Shape:
         reentries: int = 2,
         *,
         excluded: Sequence[int] = (),
+        shadowless: Sequence[int] = (),
         shadow_samples: int = 16,
         solver_tolerance: float = 1e-4,
         previous: LitShape | None = None,
@@ -175,6 +178,7 @@ class Shape:
         occluders         other objects, in the same frame, or that of occluder_frame
         reentries         how often light that leaves skin enters skin again, 0 to 8
         excluded          meshes of the occluders that do not count: the body's own
+        shadowless        indices of lights that nothing casts a shadow of, not even the body itself
         shadow_samples    rays to a light that has an extent, 1 to 4096
         solver_tolerance  where the solver stops, of what it began with, 1e-6 to 0.5. 1e-4 leaves 1 % where a thousandth
                           of the light comes through; 1e-2 is for a light that is being moved
@@ -196,6 +200,7 @@ class Shape:
                 environment,
                 scene,
                 excluded,
+                shadowless,
                 reentries,
                 shadow_samples,
                 solver_tolerance,

@@ -7,6 +7,8 @@ Run in a Blender whose Python finds skinglow; needs ../shared/data/shape/lps_mes
 Medians in milliseconds of processor time of all threads, which a busy machine does not make longer:
     update    all of an update where nothing changed
     recolor   the colors of all lights changed, with Blender's own evaluation and the written image
+    quickest  the shortest of those: other processes take the caches from the others
+    blender   of that, Blender's own evaluation: the same without the add-on's handlers
     sums      of that, the sums over the lights alone
     request   what a moved light costs the main thread, with Blender's own evaluation
     coarse    the first answer to a moved light
@@ -33,7 +35,7 @@ import numpy as np  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
 from mathutils import Vector  # noqa: E402
 from skinglow_blender.identity import key_of  # noqa: E402
-from skinglow_blender.live import shape_answers, shape_update  # noqa: E402
+from skinglow_blender.live import handlers, shape_answers, shape_update  # noqa: E402
 from skinglow_blender.session import SESSION  # noqa: E402
 from skinglow_blender.table import shape_light  # noqa: E402
 from skinglow_blender.thickness import thickness_attribute  # noqa: E402
@@ -65,14 +67,19 @@ def build() -> tuple[bpy.types.Object, list[bpy.types.Object]]:
     return head, lights
 
 
-def median(function: Callable[[int], object], changes: int = CHANGES) -> float:
-    """Milliseconds of processor time."""
+def times(function: Callable[[int], object], changes: int) -> list[float]:
+    """Milliseconds of processor time, ascending."""
     found = []
     for i in range(changes):
         started = time.process_time()
         function(i)
         found.append(1000.0 * (time.process_time() - started))
-    return statistics.median(found)
+    return sorted(found)
+
+
+def median(function: Callable[[int], object], changes: int = CHANGES) -> float:
+    """Milliseconds of processor time."""
+    return statistics.median(times(function, changes))
 
 
 def main_thread(function: Callable[[int], object]) -> float:
@@ -107,11 +114,16 @@ def main() -> None:
 
     def recolor(i: int) -> None:
         for light in lights:
-            light.data.color = (0.1 * i, 0.5, 1.0 - 0.1 * i)
+            light.data.color = (0.1 * (i % 10), 0.5, 1.0 - 0.1 * (i % 10))
         bpy.context.view_layer.update()
 
     # What a handler does is in view_layer.update(), with Blender's own evaluation.
-    figures["recolor"] = median(recolor)
+    found = times(recolor, 40)
+    figures["recolor"], figures["quickest"] = statistics.median(found), found[0]
+    bpy.app.handlers.depsgraph_update_post.remove(handlers.on_depsgraph_update)
+    figures["blender"] = median(recolor)
+    bpy.app.handlers.depsgraph_update_post.append(handlers.on_depsgraph_update)
+    recolor(1)
     answer = shape_update.state_of(key_of(head), "VIEWPORT").answer
     figures["sums"] = median(lambda _i: shape_light.recolored(answer, state.light))
     wait()
@@ -133,7 +145,8 @@ def main() -> None:
     figures["coarse"] = median(lambda i: solved_by(i, full=False))
     figures["full"] = median(lambda i: solved_by(i, full=True))
     bpy.context.view_layer.update()
-    figures["tiles"] = median(lambda _i: state.tiles.pixels(state.shown.radiance))
+    pixels = np.zeros((state.tiles.rows, 1024, 4), np.float32)
+    figures["tiles"] = median(lambda _i: state.tiles.draw(state.shown.radiance, pixels, alpha=False))
     report = sb.state_of(head, graph).shape
     figures |= {"parts": report.parts, "solved": report.ready_parts, "cells": report.cells, "MB": report.bytes / 1e6}
 

@@ -91,7 +91,7 @@ def show_random(ball: bpy.types.Object, mode: str) -> None:
     (first,) = place_tiles(group, {ball: rows_of(ball.data)}).values()
     atlas = tile_atlas(group, mode)
     pixels = np.random.default_rng(1).random((rows_of(ball.data), sg.FaceTiles.WIDTH, 4), np.float32)
-    atlas.put(sb.identity.key_of(ball), first, None, pixels)
+    atlas.rows_for(sb.identity.key_of(ball), first, len(pixels), None)[:] = pixels
     atlas.write(group)
     atlas.show(group)
     show_tiles(ball, atlas, first)

@@ -121,3 +121,35 @@ def test_lit_skin_keeps_what_comes_through_alone(made):
     dark[triangles[alone.irradiance.any(axis=1)[triangles].any(axis=1)]] = False
     assert dark.sum() > 100
     np.testing.assert_allclose(alone.transmitted[dark], alone.exitance[dark], atol=1e-3 * alone.exitance.max())
+
+
+def test_lights_without_shadows_shine_through_walls(made):
+    wall = np.array([(-1, -1, -0.05), (1, -1, -0.05), (1, 1, -0.05), (-1, 1, -0.05)], float)
+    occluders = sg.Occluders([(wall, [(0, 1, 2), (0, 2, 3)])])
+    sun = [sg.Light("SUN", (1.0, 1.0, 1.0), direction=(0.0, 0.0, 1.0))]
+    free = made.light(sun, shadowless=[0])
+    shadowed = made.light(sun, None, occluders, previous=free)
+    assert shadowed.exitance.max() == 0.0 < free.exitance.max()
+    through = made.light(sun, None, occluders, shadowless=[0], previous=shadowed)
+    np.testing.assert_allclose(through.exitance, free.exitance, rtol=1e-6)
+    with pytest.raises(ValueError, match=r"shadowless\[0\] is 1"):
+        made.light(sun, shadowless=[1])
+
+
+def test_saturated_colors_are_recolored_too(made):
+    """Their reflected light may be out of gamut, where what is clamped is summed apart."""
+    for color in ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, 1.0, 0.0)):
+        colors = np.tile(color, (3, 1))
+        lit = made.light([light_of(light, color) for light in LIGHTS])
+        found = lit.recolor(colors, transmitted=True)
+        np.testing.assert_allclose(found, lit.transmitted, atol=0.05 * lit.transmitted.max())
+
+
+def light_of(light, color):
+    return sg.Light(light.kind, color, light.position, light.direction, power=light.power, radius=light.radius)
+
+
+def test_what_encloses_flesh():
+    sheet = (np.array([(0, 0, 0), (9, 0, 0), (9, 9, 0), (0, 9, 0)], float), [(0, 1, 2), (0, 2, 3)])
+    assert sg.Shape(*sheet).report["enclosed"] == 0.0
+    assert sg.Shape(*bodies.lobe()).report["enclosed"] > 0.99

@@ -74,6 +74,8 @@ def update_scene(
             faults[skin.key] = f"{skin.name}: its node group was deleted: make the skin again"
             continue
         groups.setdefault(key_of(group), (group, []))[1].append((obj, skin))
+    if any(skin.shape is not None for _obj, skin in reading.skins):
+        shape_update.start(depsgraph)
     for group, members in groups.values():
         if is_frozen(group):
             follow_frozen(group, members, faults)

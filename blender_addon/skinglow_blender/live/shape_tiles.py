@@ -24,8 +24,11 @@ def write_tiles(group: bpy.types.NodeTree, mode: str, shown: Mapping[bpy.types.O
     for obj, each in shown.items():
         key = key_of(obj)
         if not atlas.holds(key, rows[key], each):
-            pixels = each.tiles.pixels(working_space.from_rec709(each.radiance))
-            atlas.put(key, rows[key], each, pixels)
+            # Thickness stays where it was written with other light.
+            before = atlas.written(key, rows[key])
+            has_alpha = before is not None and before.tiles is each.tiles
+            pixels = atlas.rows_for(key, rows[key], each.tiles.rows, each)
+            each.tiles.draw(working_space.from_rec709(each.radiance), pixels, alpha=not has_alpha)
         show_tiles(obj, atlas, rows[key])
     if atlas.is_dirty:
         atlas.write(group)

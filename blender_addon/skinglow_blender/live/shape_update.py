@@ -31,7 +31,7 @@ from ..table.shape_light import (
 )
 from ..table.skin_tables import Table
 from ..thickness import thickness_attribute
-from ..thickness.tile_attribute import TILES_OF_MESH, is_of_this_mesh, rows_of
+from ..thickness.tile_attribute import TILES_OF_MESH, encloses_flesh, is_of_this_mesh, rows_of
 from .newest_wins import NewestWins
 
 #: Fraction of the tiled area that may be covered twice, or lie between two tiles.
@@ -57,6 +57,11 @@ LINKED = Unfit(
     "make the skin in that file, or make object and data local",
 )
 ALL_THICK = Unfit("it is so thick everywhere that no light comes through", "look whether Unit is right")
+NO_FLESH = Unfit(
+    "its faces enclose no flesh, as an open sheet does",
+    "close the mesh, or give it thickness: a Solidify modifier with Fill, applied (Object > Apply > Visual Geometry to "
+    "Mesh), then Repair",
+)
 EDIT_MODE = Unfit("it is in Edit Mode", "leave it (Tab)")
 OVERLAPPING = Unfit("its modifiers show the same faces more than once, as Mirror and Array do", APPLY)
 NO_NODES = Unfit(
@@ -127,6 +132,13 @@ def is_synchronous(mode: str) -> bool:
     return bpy.app.background or mode == "RENDER"
 
 
+def start(depsgraph: bpy.types.Depsgraph) -> None:
+    """Begins an update of skins that are lit through their shape, before their nodes are changed."""
+    if SESSION.shown_meshes is None:
+        SESSION.shown_meshes = ShownMeshes()
+    SESSION.shown_meshes.start(depsgraph)
+
+
 def prepare(obj: bpy.types.Object, skin: Skin, depsgraph: bpy.types.Depsgraph, has_nodes: bool) -> ShapeState:
     """Reads the mesh of a skin that is lit through its shape, and finds out whether it can be.
 
@@ -144,8 +156,6 @@ def _reason_of_mesh(
     if evaluated.mode == "EDIT" or obj.mode == "EDIT":
         # What was shown before goes on being shown: nothing is solved in a mesh that is being edited.
         return None if state.shown is not None else EDIT_MODE
-    if SESSION.shown_meshes is None:
-        SESSION.shown_meshes = ShownMeshes()
     mesh = SESSION.shown_meshes.read(evaluated, depsgraph)
     settings = skin.shape
     key = BodyKey(
@@ -173,7 +183,7 @@ def _reason_without_tiles(obj: bpy.types.Object, mesh: ShownMesh) -> Unfit | Non
     if TILES_OF_MESH not in obj.data:
         return LINKED if obj.data.library is not None else NO_TILES
     if rows_of(obj.data) == 0:
-        return ALL_THICK
+        return ALL_THICK if encloses_flesh(obj.data) else NO_FLESH
     if not is_of_this_mesh(obj.data):
         return EDITED
     return MIXED if mesh.texels is None or not mesh.texels.any() else None
@@ -262,6 +272,7 @@ def light_of(skin: Skin, reading: SceneReading) -> Light:
     return Light(
         lights=tuple(light.signature[1:] for light in lights),
         core_lights=tuple(make_light(light) for light in lights),
+        shadowless=tuple(i for i, light in enumerate(lights) if not light.casts_shadows),
         world=tuple(world.ravel().tolist()) if world is not None else (),
         frame=skin.shape.frame,
         reentries=skin.shape.reentries,

@@ -30,14 +30,13 @@ class ShownMesh(NamedTuple):
     address: int  #: of Blender's own data; 0 for a temporary copy
     vertices: np.ndarray  #: (n, 3) float32
     corners: np.ndarray | None  #: (c, 3) float32, the texels at the corners of the faces; None: it has none
+    corner_count: int  #: of the faces
     triangles: np.ndarray  #: (m, 3) int32
     texels: np.ndarray | None  #: (m, 3, 3) float32, at the corners of the triangles; None: it has none
 
     def has(self, vertices: np.ndarray, corners: np.ndarray | None) -> bool:
         """Whether it has these vertices and texels."""
-        if not np.array_equal(self.vertices, vertices) or (corners is None) != (self.corners is None):
-            return False
-        return corners is None or np.array_equal(self.corners, corners)
+        return np.array_equal(self.vertices, vertices) and _same(self.corners, corners)
 
     def is_like(self, other: "ShownMesh") -> bool:
         """Whether the contents are the same."""
@@ -51,6 +50,11 @@ class ShownMeshes:
 
     def __init__(self) -> None:
         self._last: dict[tuple[str, str], ShownMesh] = {}
+        self._reported: set[str] = set()
+
+    def start(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Starts a pass over a depsgraph, before anything is deleted in it: its reports may point to that."""
+        self._reported = {key_of(update.id) for update in depsgraph.updates if update.is_updated_geometry}
 
     def read(self, obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> ShownMesh:
         """The mesh of an evaluated object."""
@@ -58,15 +62,20 @@ class ShownMeshes:
         old = self._last.get((me, depsgraph.mode))
         with evaluated_mesh(obj) as mesh:
             address = mesh.as_pointer() if obj.mode != "EDIT" else 0
-            vertices, corners = vertices_of(mesh), corner_texels(mesh)
             # Blender does not report all changes, in renders none, so what is fast to read is compared.
-            if old is not None and address and address == old.address and old.has(vertices, corners):
-                names = (me, key_of(mesh))
-                if not any(u.is_updated_geometry and key_of(u.id) in names for u in depsgraph.updates):
+            vertices = vertices_of(mesh)
+            is_there = old is not None and address and address == old.address
+            if is_there and np.array_equal(old.vertices, vertices) and self._reported.isdisjoint((me, key_of(mesh))):
+                # Corners are many, and the viewport reports what changes them alone.
+                if depsgraph.mode == "VIEWPORT" and old.corner_count == len(mesh.loops):
                     return old
+                if _same(old.corners, corner_texels(mesh)):
+                    return old
+            corners = corner_texels(mesh)
             triangles = triangles_of(mesh)
             texels = corners[_loops_of(mesh)] if corners is not None else None
-        found = ShownMesh(-1, address, vertices, corners, triangles, texels)
+            count = len(mesh.loops)
+        found = ShownMesh(-1, address, vertices, corners, count, triangles, texels)
         same = (self._last.get((me, mode)) for mode in ("VIEWPORT", "RENDER"))
         like = next((other for other in same if other is not None and other.is_like(found)), None)
         found = like._replace(address=address) if like is not None else found._replace(version=next(_versions))
@@ -80,6 +89,10 @@ class ShownMeshes:
     def forget(self, keys: set[str]) -> None:
         """Drops the meshes of these skins."""
         self._last = {key: mesh for key, mesh in self._last.items() if key[0] not in keys}
+
+
+def _same(a: np.ndarray | None, b: np.ndarray | None) -> bool:
+    return a is b or (a is not None and b is not None and np.array_equal(a, b))
 
 
 def corner_texels(mesh: bpy.types.Mesh) -> np.ndarray | None:

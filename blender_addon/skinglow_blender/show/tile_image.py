@@ -47,7 +47,7 @@ class TileAtlas(PairContents):
 
     def __init__(self, group: bpy.types.NodeTree, mode: str) -> None:
         super().__init__(TILES, group, mode)
-        self._written: dict[str, tuple[int, object]] = {}
+        self._written: dict[str, tuple[int, int, object]] = {}  #: first row, the one behind the last, source
 
     def take_over(self, smaller: "TileAtlas") -> None:
         """Takes what these images held before they were enlarged: not every skin is put again at once."""
@@ -56,14 +56,22 @@ class TileAtlas(PairContents):
 
     def holds(self, key: str, first_row: int, source: object) -> bool:
         """Whether a skin's rows hold exactly what this object was put for."""
-        row, written = self._written.get(key, (None, None))
-        return row == first_row and written is source
+        return self.written(key, first_row) is source
 
-    def put(self, key: str, first_row: int, source: object, pixels: np.ndarray) -> None:
-        """Copies the pixels (h, width, 4) of a skin into its rows. source: what they were made from, for `holds`."""
-        self.pixels[first_row : first_row + len(pixels)] = pixels
-        self._written[key] = first_row, source
+    def rows_for(self, key: str, first_row: int, height: int, source: object) -> np.ndarray:
+        """The pixels (height, width, 4) of a skin, to be written into. source: what is written, for `holds`."""
+        end = first_row + height
+        overwritten = [k for k, (first, last, _source) in self._written.items() if first < end and first_row < last]
+        for other in overwritten:
+            del self._written[other]
+        self._written[key] = first_row, end, source
         self.is_dirty = True
+        return self.pixels[first_row:end]
+
+    def written(self, key: str, first_row: int) -> object | None:
+        """What the rows of a skin that begin there were written from; None: nothing."""
+        row, _end, source = self._written.get(key, (None, None, None))
+        return source if row == first_row else None
 
 
 def tile_atlas(group: bpy.types.NodeTree, mode: str) -> TileAtlas:

@@ -72,9 +72,12 @@ class Tiles:
         """Of the targets, (k,)."""
         return self.targets.at_vertices(self._thickness_mm[:, None])[:, 0]
 
-    def pixels(self, radiance: np.ndarray) -> np.ndarray:
-        """The image (rows, width, 4) of a radiance at the targets (k, 3), with the thickness in mm as alpha."""
-        return self.targets.spread(np.column_stack((radiance, self.thickness_mm)))
+    def draw(self, radiance: np.ndarray, pixels: np.ndarray, *, alpha: bool = True) -> None:
+        """Writes a radiance at the targets (k, 3) into an image (rows, width, 4), with the thickness in mm as alpha.
+
+        alpha  False: the image has that already
+        """
+        self.targets.spread(np.column_stack((radiance, self.thickness_mm)) if alpha else radiance, out=pixels)
 
 
 class Body:
@@ -119,6 +122,7 @@ class Light(NamedTuple):
 
     lights: tuple[tuple, ...]  #: signatures (scene_lights.FIELDS), each without the name
     core_lights: tuple[Any, ...]  #: the same as skinglow.Light, in the world; not compared
+    shadowless: tuple[int, ...]  #: indices of those that cast no shadows
     world: tuple[float, ...]  #: coefficients of the environment
     frame: Frame
     reentries: int
@@ -137,7 +141,7 @@ class Light(NamedTuple):
         return all(_without_color(a) == _without_color(b) for a, b in zip(self.lights, other.lights, strict=True))
 
     def _but_colors(self) -> tuple:
-        return self.world, self.frame.body_to_world, self.reentries, self.occluders, self.own
+        return self.shadowless, self.world, self.frame.body_to_world, self.reentries, self.occluders, self.own
 
 
 def _without_color(signature: tuple) -> tuple:
@@ -199,6 +203,7 @@ def _solved(shape: Any, body: Body, light: Light, progress: Progress, *, full: b
         light.scene,
         light.reentries if full else min(light.reentries, COARSE_REENTRIES),
         excluded=light.own,
+        shadowless=light.shadowless,
         occluder_frame=np.array(light.frame.body_to_world) if light.scene is not None else None,
         previous=body.last_lit,
         progress=progress,

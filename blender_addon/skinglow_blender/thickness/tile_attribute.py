@@ -14,12 +14,24 @@ from ..read.measured_geometry import unit_mm
 from ..read.mesh_reading import triangles_of
 from ..read.shown_mesh import TEXEL_ATTRIBUTE
 from ..read.shown_mesh import corner_texels as texels_of
+from ..session import SESSION
 from .thickness_attribute import SUMMARY, check_local, read
 
-__all__ = ["TEXEL_ATTRIBUTE", "ensure_tiles", "is_current", "is_of_this_mesh", "remove_tiles", "rows_of", "texels_of"]
+__all__ = [
+    "TEXEL_ATTRIBUTE",
+    "encloses_flesh",
+    "ensure_tiles",
+    "is_current",
+    "is_of_this_mesh",
+    "remove_tiles",
+    "rows_of",
+    "texels_of",
+]
 
 #: Mesh property: digest of faces and corners, rows, number of tiles, spacing in mm, and what they were made for.
 TILES_OF_MESH = "skinglow_tiles"
+#: Fraction of the vertices of a closed mesh with flesh behind them, at least.
+MIN_ENCLOSED = 0.5
 #: Distance of texels, mm.
 SPACING_MM = 0.8
 
@@ -68,7 +80,12 @@ def ensure_tiles(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
         "spacing_mm": float(made.spacing_mm),
         "made_for": _made_for(mesh),
     }
+    if made.height == 0:
+        enclosed = core().Shape(body, triangles, unit_mm=unit).report["enclosed"]
+        mesh[TILES_OF_MESH]["enclosed"] = float(enclosed)
     mesh.update()
+    if SESSION.shown_meshes is not None:
+        SESSION.shown_meshes.reread()
     return True
 
 
@@ -90,6 +107,11 @@ def rows_of(mesh: bpy.types.Mesh) -> int:
     """The rows of a mesh's tiles; 0 if it has none."""
     stored = mesh.get(TILES_OF_MESH)
     return int(stored["rows"]) if stored is not None else 0
+
+
+def encloses_flesh(mesh: bpy.types.Mesh) -> bool:
+    """Whether a mesh without a row of tiles is thick; else it is open, and there is no flesh behind its faces."""
+    return mesh[TILES_OF_MESH].get("enclosed", 1.0) >= MIN_ENCLOSED
 
 
 def remove_tiles(mesh: bpy.types.Mesh) -> None:

@@ -100,8 +100,10 @@ struct ShapeLightOptions {
     const Environment* environment = nullptr;  ///< none: black
     const Occluders* occluders = nullptr;      ///< other objects, in a frame of their own; none: nothing
     std::vector<std::size_t> excluded = {};    ///< meshes of the occluders that do not count: the body's own
-    int reentries = 2;                         ///< how often light that leaves skin enters skin again, 0 to 8
-    int shadow_samples = 16;                   ///< rays to a light that has an extent, 1 to 4096
+    /// Indices of lights that nothing casts a shadow of, not even the body itself, as hosts have them.
+    std::vector<std::size_t> shadowless = {};
+    int reentries = 2;        ///< how often light that leaves skin enters skin again, 0 to 8
+    int shadow_samples = 16;  ///< rays to a light that has an extent, 1 to 4096
     /// Where the solver stops, of what it began with, 1e-6 to 0.5. 1e-4 leaves 1 % where a thousandth of the light
     /// comes through; 1e-2 is for light that is being moved.
     double solver_tolerance = 1e-4;
@@ -187,6 +189,9 @@ class Shape {
     std::vector<ShapePart> parts() const;
     /// Memory of what is prepared.
     std::size_t bytes() const;
+    /// Fraction of the points, of up to 1000 of them, that have flesh behind them: 0 of an open sheet, which encloses
+    /// none. Light comes through flesh alone.
+    double enclosed_fraction() const;
 
     /// What leaves the flesh at each point, W/m^2, without light that enters skin again: at a vertex the mean
     /// about it, weighted by the hat function of its triangles.

@@ -54,6 +54,10 @@ bool LightScene::may_shine(std::size_t light) const {
     return rig.lights()[light].visible() && one.power != 0 && !one.light.dark();
 }
 
+bool LightScene::casts_shadows(std::size_t light) const {
+    return std::find(options.shadowless.begin(), options.shadowless.end(), light) == options.shadowless.end();
+}
+
 double LightTracer::work() const {
     return work_of_traced * static_cast<double>(scene_->shape->vertices.size());
 }
@@ -77,7 +81,7 @@ const VertexLight& LightTracer::vertex_light() {
 }
 
 WhiteIrradiance LightTracer::traced(std::size_t light) {
-    return vertex_light().of_light(scene_->rig.data().prepared[light].light);
+    return vertex_light().of_light(scene_->rig.data().prepared[light].light, scene_->casts_shadows(light));
 }
 
 std::vector<glm::dvec3> LightTracer::traced_world() {

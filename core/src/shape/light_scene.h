@@ -29,6 +29,8 @@ struct LightScene {
     bool has_same_color(std::size_t k, const LightScene& other, std::size_t j) const;
     /// Whether a light gives anything where it is of some color.
     bool may_shine(std::size_t light) const;
+    /// Whether the body and what stands around it cast shadows of a light.
+    bool casts_shadows(std::size_t light) const;
 };
 
 /// Irradiance at the vertices, made when it is first asked for, and what it is good for.

@@ -16,8 +16,9 @@ constexpr int max_samples = 4096;
 constexpr double min_tolerance = 1e-6;
 constexpr double max_tolerance = 0.5;
 
-ShapeData::Colors recolored(const LitShapeData& lit, std::span<const glm::dvec3> colors,
-                            const ShapeProgress& progress) {
+/// Checks the colors, and has each light solved by itself.
+void prepare_recolor(const LitShapeData& lit, std::span<const glm::dvec3> colors,
+                     const ShapeProgress& progress) {
     const std::size_t lights = lit.solved->rig.size();
     if (colors.size() != lights) {
         refuse_argument("colors", std::to_string(colors.size()) + " of them",
@@ -26,7 +27,6 @@ ShapeData::Colors recolored(const LitShapeData& lit, std::span<const glm::dvec3>
     for (std::size_t k = 0; k < colors.size(); ++k) require_not_negative(entry_name("colors", k), colors[k]);
     // What is at hand is faster than starting a job.
     if (!lit.is_each_solved()) run_or_cancel(progress, [&] { lit.solve_each(); });
-    return lit.sum(colors);
 }
 
 }  // namespace
@@ -39,6 +39,11 @@ LitShape Shape::light(const PreparedRig& rig, const ShapeLightOptions& options,
         refuse_argument("shadow_samples", std::to_string(options.shadow_samples), "1 to 4096");
     if (!(options.solver_tolerance >= min_tolerance && options.solver_tolerance <= max_tolerance))
         refuse_argument("solver_tolerance", to_text(options.solver_tolerance), "1e-6 to 0.5");
+    for (std::size_t i = 0; i < options.shadowless.size(); ++i) {
+        if (options.shadowless[i] >= rig.size())
+            refuse_argument(entry_name("shadowless", i)(), std::to_string(options.shadowless[i]),
+                            "indices of the " + std::to_string(rig.size()) + " lights");
+    }
     const detail::LitShapeData* const previous =
         options.previous != nullptr ? options.previous->data_.get() : nullptr;
     LitShape result;
@@ -90,14 +95,14 @@ std::vector<glm::dvec3> LitShape::per_light(const ShapeProgress& progress) const
 
 std::vector<glm::dvec3> LitShape::recolor(std::span<const glm::dvec3> colors,
                                           const ShapeProgress& progress) const {
-    return data_->shape->at_points(recolored(*data_, colors, progress).exitance);
+    prepare_recolor(*data_, colors, progress);
+    return data_->shape->at_points(data_->sum(colors).exitance);
 }
 
 std::vector<glm::dvec3> LitShape::recolor_transmitted(std::span<const glm::dvec3> colors,
                                                       const ShapeProgress& progress) const {
-    ShapeData::Colors found = recolored(*data_, colors, progress);
-    keep_transmitted(found);
-    return data_->shape->at_points(found.reflected);
+    prepare_recolor(*data_, colors, progress);
+    return data_->transmitted_of(colors);
 }
 
 LitShape LitShape::with_tissue(const Tissue& tissue) const {

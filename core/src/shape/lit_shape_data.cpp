@@ -5,9 +5,15 @@
 #include <unordered_map>
 #include <utility>
 
+#include "numerics/parallel_blocks.h"
 #include "shape/shape_error.h"
 
 namespace skinglow::detail {
+namespace {
+
+constexpr std::size_t points_per_block = std::size_t{1} << 13U;
+
+}  // namespace
 
 void keep_transmitted(ShapeData::Colors& found) {
     for (std::size_t s = 0; s < found.exitance.size(); ++s)
@@ -63,8 +69,7 @@ ShapeData::Colors LitShapeData::sum(std::span<const glm::dvec3> colors) const {
     const std::size_t sites = shape->solver->sites().sites().size();
     ShapeData::Colors result{std::vector<glm::dvec3>(sites, glm::dvec3(0.0)),
                              std::vector<glm::dvec3>(sites, glm::dvec3(0.0))};
-    if (world_ && world_->world->solved.ready() != nullptr)
-        result = world_->colors.get([&] { return shape->colors(*world_->world->solved.ready()); });
+    if (const ShapeData::Colors* of_world = world_colors()) result = *of_world;
     for (std::size_t k = 0; k < colors.size(); ++k) {
         const ShapeData::Matrices* of_light = solved->may_shine(k) ? matrices(k) : nullptr;
         const glm::dvec3 color = solved->strength(k, colors[k]);
@@ -81,6 +86,60 @@ ShapeData::Colors LitShapeData::sum(std::span<const glm::dvec3> colors) const {
     }
     for (glm::dvec3& e : result.exitance) e = glm::max(e, glm::dvec3(0.0));
     for (glm::dvec3& e : result.reflected) e = glm::max(e, glm::dvec3(0.0));
+    return result;
+}
+
+const ShapeData::Colors* LitShapeData::world_colors() const {
+    if (!world_ || world_->world->solved.ready() == nullptr) return nullptr;
+    return &world_->colors.get([&] { return shape->colors(*world_->world->solved.ready()); });
+}
+
+const std::vector<glm::mat3>& LitShapeData::through(std::size_t light,
+                                                    const ShapeData::Matrices& of_light) const {
+    return lights_[light]->through.get([&] {
+        std::vector<glm::mat3> result = of_light.exitance;
+        for (std::size_t s = 0; s < result.size(); ++s) result[s] -= of_light.reflected[s];
+        return result;
+    });
+}
+
+std::vector<glm::dvec3> LitShapeData::transmitted_of(std::span<const glm::dvec3> colors) const {
+    struct Part {
+        const glm::mat3* matrices;
+        glm::vec3 color;
+    };
+    std::vector<Part> parts;
+    // Where nothing that is reflected is negative, clamping it and the exitance changes nothing.
+    bool is_in_gamut = true;
+    for (std::size_t k = 0; k < colors.size() && is_in_gamut; ++k) {
+        const ShapeData::Matrices* of_light = solved->may_shine(k) ? matrices(k) : nullptr;
+        const glm::dvec3 color = solved->strength(k, colors[k]);
+        if (of_light == nullptr || color == glm::dvec3(0.0)) continue;
+        is_in_gamut = shape->is_reflected_in_gamut(color);
+        if (is_in_gamut) parts.push_back({through(k, *of_light).data(), glm::vec3(color)});
+    }
+    if (!is_in_gamut) {
+        ShapeData::Colors found = sum(colors);
+        keep_transmitted(found);
+        return shape->at_points(found.reflected);
+    }
+    const ShapeData::Colors* of_world = world_colors();
+    const auto& site_of = shape->solver->sites().site_of();
+    std::vector<glm::dvec3> result(site_of.size());
+    const bool mixes = shape->spectrum.has_value();
+    const auto work = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::size_t s = site_of[i];
+            glm::vec3 total(0.0F);
+            if (of_world != nullptr) total = glm::vec3(of_world->exitance[s] - of_world->reflected[s]);
+            for (const Part& part : parts) {
+                const glm::mat3& m = part.matrices[s];
+                total += mixes ? m * part.color : glm::vec3(m[0][0], m[1][1], m[2][2]) * part.color;
+            }
+            result[i] = glm::max(glm::dvec3(total), glm::dvec3(0.0));
+        }
+    };
+    for_each_block(result.size(), shape->options.threads, work, {}, points_per_block);
     return result;
 }
 

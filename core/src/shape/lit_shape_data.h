@@ -12,6 +12,7 @@ struct LightColors {
 
     std::shared_ptr<const WhiteLight> light;
     Lazy<ShapeData::Matrices> matrices;  ///< empty where it gives nothing
+    Lazy<std::vector<glm::mat3>> through;  ///< exitance less what is reflected
 };
 struct WorldColors {
     explicit WorldColors(std::shared_ptr<const WorldLight> of) : world(std::move(of)) {}
@@ -41,10 +42,16 @@ struct LitShapeData {
     /// Sum over the lights at the sites, of lights of these colors, and the world. Of those that are not black,
     /// what is solved.
     ShapeData::Colors sum(std::span<const glm::dvec3> colors) const;
+    /// What comes through, at the points, of lights of these colors and the world.
+    std::vector<glm::dvec3> transmitted_of(std::span<const glm::dvec3> colors) const;
     /// Estimated, one per site.
     std::vector<glm::dvec3> error() const;
 
   private:
+    const std::vector<glm::mat3>& through(std::size_t light, const ShapeData::Matrices& of_light) const;
+    /// Null: black, or not solved.
+    const ShapeData::Colors* world_colors() const;
+
     std::vector<std::shared_ptr<const LightColors>> lights_;
     std::shared_ptr<const WorldColors> world_;  ///< null: black
 };

@@ -13,6 +13,9 @@ namespace {
 constexpr int spectral_node_count = 4;
 constexpr double min_cell_mm = 0.02;
 constexpr double max_cell_mm = 1000;
+/// Points at which flesh is looked for, at so many of the surface's gaps behind them.
+constexpr std::size_t max_asked = 1000;
+constexpr float asked_depth = 4;
 /// Chosen from a tolerance. Smaller ones are only slower: what is left is SP3's.
 constexpr double finest_chosen_mm = 0.3;
 constexpr double coarsest_chosen_mm = 1.6;
@@ -166,6 +169,19 @@ std::size_t Shape::vertices() const {
 
 std::size_t Shape::bytes() const {
     return data_->solver->bytes();
+}
+
+double Shape::enclosed_fraction() const {
+    const FleshSurface& surface = data_->solver->surface();
+    const std::vector<Site>& sites = data_->solver->sites().sites();
+    const std::size_t step = sites.size() / max_asked + 1;
+    std::size_t asked = 0;
+    std::size_t inside = 0;
+    for (std::size_t s = 0; s < sites.size(); s += step, ++asked) {
+        const glm::vec3 behind = sites[s].position - sites[s].normal * (asked_depth * surface.gap());
+        inside += surface.is_inside(behind) ? 1 : 0;
+    }
+    return asked == 0 ? 0.0 : static_cast<double>(inside) / static_cast<double>(asked);
 }
 
 std::vector<ShapePart> Shape::parts() const {

@@ -98,6 +98,11 @@ ShapeData::Pair ShapeData::combine(const Lanes& all, const Lanes& of_half_space)
     return result;
 }
 
+bool ShapeData::is_reflected_in_gamut(const glm::dvec3& color) const {
+    const glm::dvec3 reflected = spectrum ? all_thick_ * color : color;
+    return std::min({reflected.x, reflected.y, reflected.z}) >= 0;
+}
+
 std::vector<glm::dvec3> ShapeData::at_points(const std::vector<glm::dvec3>& of_sites) const {
     std::vector<glm::dvec3> result;
     result.reserve(points.size());

@@ -82,6 +82,9 @@ struct ShapeData {
     /// @param reflected what a half-space has of it
     Pair combine(const Lanes& exitance, const Lanes& reflected) const;
 
+    /// Whether what a half-space has of light of a color is nowhere negative: a saturated one may be out of gamut.
+    bool is_reflected_in_gamut(const glm::dvec3& color) const;
+
     std::vector<glm::dvec3> at_points(const std::vector<glm::dvec3>& of_sites) const;
 
     ShapeOptions options;

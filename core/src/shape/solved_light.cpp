@@ -65,6 +65,10 @@ SolvedLight::SolvedLight(LightScene scene, const SolvedLight* previous)
     if (previous != nullptr && !has_same_shadows(*previous)) previous = nullptr;
     std::vector<std::size_t> before(rig.size(), not_matched);
     if (previous != nullptr) before = matching_lights(rig.lights(), previous->rig.lights());
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        if (before[k] != not_matched && casts_shadows(k) != previous->casts_shadows(before[k]))
+            before[k] = not_matched;
+    }
     for (const std::size_t k : before)
         lights.push_back(shared<WhiteLight>(k == not_matched ? nullptr : previous->lights[k], previous));
     if (environment) {

@@ -91,7 +91,7 @@ std::vector<std::uint8_t> VertexLight::doubtful(std::span<const float> fraction)
     return result;
 }
 
-WhiteIrradiance VertexLight::of_light(const PreparedLight& light) const {
+WhiteIrradiance VertexLight::of_light(const PreparedLight& light, bool has_shadows) const {
     std::vector<float> seen(vertices_.size(), no_light);
     std::vector<double> open(wanted_.size(), 0.0);
     const auto first = [&](std::size_t begin, std::size_t end) {
@@ -101,13 +101,18 @@ WhiteIrradiance VertexLight::of_light(const PreparedLight& light) const {
             open[i] = light.irradiance(receiver.point, receiver.normal, area_tolerance);
             if (!(open[i] > 0)) continue;
             const std::uint32_t v = wanted_[i];
+            if (!has_shadows) {
+                seen[v] = 1;
+                continue;
+            }
             const LightSampler sampler(light, receiver.point, receiver.normal);
             const int samples = sampler.sine() < narrow ? 1 : first_samples;
             seen[v] = static_cast<float>(fraction(sampler, receiver, v, std::min(samples, options_.samples)));
         }
     };
     for_each_block(wanted_.size(), options_.threads, first, {}, block);
-    const std::vector<std::uint8_t> again = doubtful(seen);
+    const std::vector<std::uint8_t> again =
+        has_shadows ? doubtful(seen) : std::vector<std::uint8_t>(seen.size(), 0);
     const auto second = [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t v = wanted_[i];

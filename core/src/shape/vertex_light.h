@@ -43,7 +43,8 @@ class VertexLight {
 
     /// Of one light whose color is white and whose power is 1, W/m^2; 0 at vertices that are not wanted. First a
     /// few rays go to each vertex; where they or those of a neighbor disagree, all of them.
-    WhiteIrradiance of_light(const PreparedLight& light) const;
+    /// @param has_shadows  whether anything stops it
+    WhiteIrradiance of_light(const PreparedLight& light, bool has_shadows = true) const;
 
     /// Of the world: by rays that follow the cosine, with the radiance of the nine harmonics along those that
     /// nothing stops.

@@ -5,8 +5,8 @@ import numpy as np
 import skinglow as sg
 import skinglow_blender as sb
 
-from inside.scenes import add_light, depsgraph
-from inside.shape_scenes import assert_through, assert_through_turned, differences, lobe, shape_skin, sun, turn
+from inside.scenes import add_light, depsgraph, link
+from inside.shape_scenes import assert_through, assert_through_turned, differences, lobe, shape_skin, shown, sun, turn
 
 
 def check_lights_and_places(_work):
@@ -89,3 +89,112 @@ def check_occlusion_and_world(_work):
     environment = sg.Environment((0.3, 0.1, 0.05))
     obj.rotation_euler.z = 0.0
     assert_through(obj, 1e-2, environment=environment)
+
+
+def check_lights_without_shadows(_work):
+    """A wall keeps a light from a skin; one that casts no shadows shines as if there were no wall."""
+    key = sun(direction=(0.3, 0.0, 1.0))
+    obj = lobe(levels=2)
+    shape_skin(obj)
+    bpy.ops.mesh.primitive_plane_add(size=90.0, location=(0.0, 0.0, -12.0))
+    bpy.context.scene.skinglow.occlusion = True
+    sb.update(depsgraph())
+    assert shown(obj, depsgraph(), int(obj.data["skinglow_tiles"]["rows"]))[..., :3].max() == 0.0
+    key.data.use_shadow = False
+    assert_through(obj)
+    key.data.use_shadow = True
+    depsgraph()
+    assert shown(obj, depsgraph(), int(obj.data["skinglow_tiles"]["rows"]))[..., :3].max() == 0.0
+
+
+def check_undo_save_and_load(work):
+    key = sun()
+    shape_skin(lobe(levels=2))
+    bpy.ops.ed.undo_push(message="start")
+    key.data.energy = 1.0
+    turn(key, (-0.5, 0.3, 1.0))
+    depsgraph()
+    bpy.ops.ed.undo_push(message="moved")
+    assert_through(bpy.data.objects["Lobe"])
+    for step in (bpy.ops.ed.undo, bpy.ops.ed.redo):
+        step()
+        assert_through(bpy.data.objects["Lobe"])
+    path = str(work / "shape.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    obj = bpy.data.objects["Lobe"]
+    assert_through(obj)
+    assert sb.update(depsgraph()) == []
+    turn(bpy.data.objects["Sun"], (0.3, -0.2, 1.0))
+    assert_through(obj)
+
+
+def check_linked_and_overridden(work):
+    """A skin of a library, made there, is lit by the lights of the file; so is what overrides it, where it is."""
+    shape_skin(lobe(levels=2))
+    depsgraph()
+    path = str(work / "shape_library.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    key = sun()
+    with bpy.data.libraries.load(path, link=True) as (_source, target):
+        target.objects = ["Lobe"]
+    linked = link(bpy.data.objects["Lobe"])
+    assert_through(linked)
+    turn(key, (-0.5, 0.3, 1.0))
+    assert_through(linked)
+    override = linked.override_create(remap_local_usages=True)
+    override.location, override.rotation_euler = (0.0, 20.0, 3.0), (0.3, 0.0, 0.4)
+    assert_through(override)
+    override.scale.x = -1.2
+    assert_through(override)
+    key.data.color = (0.9, 0.1, 0.4)
+    assert_through(override)
+
+
+def check_view_layers(_work):
+    """The layer in the window decides, frames evaluate both."""
+    scene, window = bpy.context.scene, bpy.context.window_manager.windows[0]
+    extra = bpy.data.collections.new("Extra")
+    scene.collection.children.link(extra)
+    sun()
+    link(bpy.data.objects.new("Other", sun(direction=(-0.5, 0.3, 1.0)).data), extra).rotation_euler.x = 2.6
+    obj = lobe(levels=2)
+    shape_skin(obj)
+    layers = [scene.view_layers[0], scene.view_layers.new("Second")]
+    layers[1].layer_collection.children["Extra"].exclude = True
+    means = []
+    for layer in (0, 1, 0):
+        window.view_layer = layers[layer]
+        sb.update(depsgraph())
+        assert_through(obj)
+        means.append(differences(obj, depsgraph())[1])
+        scene.frame_set(2 + layer)
+        assert_through(obj)
+        assert sb.update(depsgraph()) == []
+    assert means[1] < 0.9 * means[0]
+
+
+def check_instances(_work):
+    """Instances share the light of the object itself; where that is only shown as one, that of the first."""
+    sun()
+    obj = lobe(levels=2)
+    shape_skin(obj)
+    store = bpy.data.collections.new("Store")
+    bpy.context.scene.collection.children.link(store)
+    store.objects.link(obj)
+    for collection in [c for c in obj.users_collection if c != store]:
+        collection.objects.unlink(obj)
+    empty = link(bpy.data.objects.new("Empty", None))
+    empty.instance_type, empty.instance_collection = "COLLECTION", store
+    empty.location, empty.rotation_euler = (0.0, 30.0, 0.0), (0.5, 0.2, 0.0)
+    assert_through(obj)
+    bpy.context.view_layer.layer_collection.children["Store"].exclude = True
+    graph = depsgraph()
+    sb.update(graph)
+    matrix = empty.matrix_world @ obj.matrix_world
+    assert_through(obj, graph=depsgraph(), matrix=matrix)
+    empty.rotation_euler.x = -0.4
+    depsgraph()
+    assert_through(obj, graph=depsgraph(), matrix=empty.matrix_world @ obj.matrix_world)

@@ -48,10 +48,10 @@ def turn(obj, direction):
     obj.rotation_euler = Vector(direction).to_track_quat("-Z", "Y").to_euler()
 
 
-def corners(obj, graph):
+def corners(obj, graph, matrix):
     """Of the triangles of the evaluated mesh: vertices in the world, triangles, texels."""
     mesh = obj.evaluated_get(graph).data
-    matrix = np.array(obj.evaluated_get(graph).matrix_world, float)
+    matrix = np.array(matrix, float)
     vertices = np.array([v.co for v in mesh.vertices], float) @ matrix[:3, :3].T + matrix[:3, 3]
     mesh.calc_loop_triangles()
     triangles = np.array([t.vertices for t in mesh.loop_triangles])
@@ -78,25 +78,31 @@ def _front(obj, graph):
     return SESSION.tile_atlases[key_of(obj.skinglow.group), graph.mode].front
 
 
-def fresh(obj, graph, as_it_stands=False, flesh=None, environment=None, occluders=None, cell_mm=1.0, reentries=2):
+def fresh(
+    obj, graph, as_it_stands=False, flesh=None, environment=None, occluders=None, cell_mm=1.0, reentries=2, matrix=None
+):
     """(k, 3) radiance at the targets, the targets, and where no light falls on the skin.
 
     as_it_stands  solved in the orientation of the world, which cuts other cells from a turned body; else turned back
+    matrix        in the world, of an instance; None: the object's own
     """
-    vertices, triangles, texels = corners(obj, graph)
-    place, rotation, _scale = obj.evaluated_get(graph).matrix_world.decompose()
+    matrix = obj.evaluated_get(graph).matrix_world if matrix is None else matrix
+    vertices, triangles, texels = corners(obj, graph, matrix)
+    place, rotation, _scale = matrix.decompose()
     # Far from the world's origin single precision would be what differs.
     to_world = np.array(Matrix.Translation(place) @ rotation.to_matrix().to_4x4(), float)
     if as_it_stands:
         to_world[:3, :3] = np.eye(3)
     vertices = (vertices - to_world[:3, 3]) @ to_world[:3, :3]
-    lights = [physical_light(light.data, np.linalg.inv(to_world) @ matrix) for light, matrix in visible_lights(graph)]
+    to_body, found = np.linalg.inv(to_world), list(visible_lights(graph))
+    lights = [physical_light(light.data, to_body @ place) for light, place in found]
+    shadowless = [i for i, (light, _place) in enumerate(found) if not light.data.use_shadow]
     rows = int(obj.data["skinglow_tiles"]["rows"])
     targets = sg.TileTargets(vertices, triangles, texels, rows, unit_mm=1.0)
     where = {"points": targets.points, "normals": targets.normals}
     flesh = {"tissue": sg.TISSUE_PRESETS["light"]} if flesh is None else flesh
     shape = sg.Shape(vertices, triangles, unit_mm=1.0, cell_mm=cell_mm, **where, **flesh)
-    lit = shape.light(lights, environment, occluders, reentries)
+    lit = shape.light(lights, environment, occluders, reentries, shadowless=shadowless)
     dark = (lit.exitance - lit.transmitted).max(axis=1) <= 1e-3 * lit.exitance.max()
     return lit.transmitted / np.pi, targets, dark
 

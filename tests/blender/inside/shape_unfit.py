@@ -3,7 +3,7 @@
 import bpy
 import skinglow_blender as sb
 
-from inside.scenes import depsgraph
+from inside.scenes import depsgraph, patch
 from inside.shape_scenes import assert_through, lobe, shape_skin, sun
 
 
@@ -77,3 +77,20 @@ def check_lighting_is_chosen_and_left(_work):
     sb.remove_skin(other)
     assert not [key for each in (obj, obj.data) for key in each.keys() if "skinglow" in key and key != "skinglow"]
     assert not [image.name for image in bpy.data.images if "Skinglow" in image.name]
+
+
+def check_open_sheets_are_lit_per_pixel(_work):
+    """They enclose no flesh; closed, they are lit through their shape."""
+    sun()
+    sheet = patch(size=6.0)
+    shape_skin(sheet)
+    depsgraph()
+    assert not is_through(sheet) and "enclose no flesh" in faults(sheet), faults(sheet)
+    assert sb.lut(sheet, depsgraph()).max() > 0.0
+    assert sb.update(depsgraph()) == []
+    vertices = [(x, y, z) for z in (0.0, -2.0) for x, y in ((-3, -3), (3, -3), (3, 3), (-3, 3))]
+    sides = [(i, 4 + i, 4 + (i + 1) % 4, (i + 1) % 4) for i in range(4)]
+    sheet.data.clear_geometry()
+    sheet.data.from_pydata(vertices, [], [(0, 1, 2, 3), (7, 6, 5, 4), *sides])
+    shape_skin(sheet, cell_mm=1.3)
+    assert is_through(sheet) and not faults(sheet), faults(sheet)

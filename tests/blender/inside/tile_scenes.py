@@ -82,7 +82,9 @@ def fill(group, objects, mode="RENDER", light=function):
     atlas = tile_atlas(group, mode)
     for obj in objects:
         key = sb.identity.key_of(obj)
-        atlas.put(key, rows[key], None, pixels_of(obj.evaluated_get(graph).data, rows_of(obj.data), light))
+        height = rows_of(obj.data)
+        pixels = pixels_of(obj.evaluated_get(graph).data, height, light)
+        atlas.rows_for(key, rows[key], height, None)[:] = pixels
         show_tiles(obj, atlas, rows[key])
     atlas.write(group)
     atlas.show(group)
