@@ -8,7 +8,9 @@ Run in a Blender whose Python finds skinglow, as blender_reaction.py. An empty i
 each without a skin in the file and with one. In turn the edit is followed by the add-on's handler, by one that reads
 Blender's own list of what was updated and nothing else, and by one that does nothing. Medians, microseconds of the main
 thread: the handlers right after Blender's evaluation, when no cache holds anything of theirs, and that evaluation for
-comparison. Prints a table, and JSON on one line.
+comparison. Then, among the 2,000 objects with a skin, the handler's time after other edits: a plain object is
+selected, hidden, its mesh or its material is edited, the frame or a light's power changes; the fastest of 60, which
+other processes disturb least. Prints tables, and JSON on one line.
 """
 
 import json
@@ -97,6 +99,51 @@ def measure(build: Callable[[], None], skin: bool) -> dict[str, float]:
     return {kind: found[kind] - found["nothing"] for kind in ("handlers", "list")} | {"blender": found["blender"]}
 
 
+def other_edits() -> dict[str, float]:
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    objects()
+    light = bpy.data.lights.new("Lamp", "POINT")
+    link(bpy.data.objects.new("Lamp", light))
+    sb.make_skin(quad("Skin"), thickness=[1.0] * 4)
+    plain, material = bpy.data.objects["Object 3"], bpy.data.materials.new("Plain")
+    if bpy.app.version < (5, 0, 0):
+        material.use_nodes = True
+    plain.data.materials.append(material)
+    color = material.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value
+    bpy.context.view_layer.update()
+
+    def mesh(i: int) -> None:
+        plain.data.vertices[0].co.z = i
+        plain.data.update()
+
+    edits = {
+        "select": lambda i: plain.select_set(i % 2 == 0),
+        "hide": lambda i: plain.hide_set(i % 2 == 0),
+        "mesh": mesh,
+        "material": lambda i: color.__setitem__(0, i / 100),
+        "frame": lambda i: bpy.context.scene.frame_set(i + 1),
+        "light": lambda i: setattr(light, "energy", float(i)),
+    }
+    found = {}
+    for name, edit in edits.items():
+        event = "frame_change_post" if name == "frame" else "depsgraph_update_post"
+        handler = handlers.on_frame_change if name == "frame" else handlers.on_depsgraph_update
+        spent: list[float] = []
+
+        def timed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+            started = time.thread_time()
+            handler(scene, depsgraph)  # noqa: B023  called before the next round
+            spent.append(time.thread_time() - started)  # noqa: B023
+
+        getattr(bpy.app.handlers, event).append(timed)
+        for i in range(60):
+            edit(i)
+            bpy.context.view_layer.update()
+        getattr(bpy.app.handlers, event).clear()
+        found[name] = 1e6 * min(spent)
+    return found
+
+
 def main() -> None:
     sb.register()
     handlers.unregister()
@@ -109,7 +156,9 @@ def main() -> None:
             results.append({"scene": build.__name__, "skins": int(skin), **found})
             numbers = f"{found['handlers']:9.1f} {found['list']:11.1f} {found['blender']:14.1f}"
             print(f"{build.__name__:>10} {skin:6d} {numbers}")
-    print(json.dumps({"blender": bpy.app.version_string, "microseconds": results}))
+    others = other_edits()
+    print("; ".join(f"{name} {spent:.0f}" for name, spent in others.items()))
+    print(json.dumps({"blender": bpy.app.version_string, "microseconds": results, "others": others}))
 
 
 main()
