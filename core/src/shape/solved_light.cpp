@@ -26,7 +26,7 @@ double brightness(const ShapeData& shape, const PreparedRig& rig) {
     const std::size_t step = std::max<std::size_t>(1, shape.vertices.size() / probes);
     for (std::size_t v = 0; v < shape.vertices.size(); v += step) {
         points.push_back(shape.vertices[v]);
-        normals.emstate_back(sites.sites()[sites.site_of()[v]].normal);
+        normals.emplace_back(sites.sites()[sites.site_of()[v]].normal);
     }
     double largest = 0;
     for (const glm::dvec3& e : surface_irradiance(rig, points, normals, {.area_tolerance = 1e-3}))
