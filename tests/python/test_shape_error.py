@@ -27,10 +27,11 @@ def test_it_is_above_what_monte_carlo_measures_and_not_far(name):
     a, b = (truth[half][chosen].astype(float) for half in ("exitance_half_a", "exitance_half_b"))
     found, error = shape.exitance(irradiance)[index], shape.exitance_error(irradiance)[index]
     measured, estimated = weight @ ((found - a) * (found - b)), weight @ error**2
-    assert 1.0 < np.sqrt(estimated.mean() / measured.mean()) < 3.0
-    # Single channels have noise of the reference left in what is measured.
-    assert (np.sqrt(estimated / np.maximum(measured, 1e-30)) > 1.0).all()
-    assert np.sqrt(estimated / measured)[2] < 3.5
+    # Where the error is less than the reference's noise, what is measured of it may be anything up to two deviations.
+    spread = 2.0 * np.sqrt((weight**2) @ (((found - a) * (found - b)).mean(axis=1) - measured.mean()) ** 2)
+    assert estimated.mean() > measured.mean()
+    assert estimated.mean() < 9.0 * (measured.mean() + spread)
+    assert (estimated > measured).all()
 
 
 def test_it_grows_as_light_falls_and_with_the_cells(lobe):

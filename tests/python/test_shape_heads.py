@@ -60,18 +60,21 @@ def errors(name, cell_mm):
     return 100.0 * np.append(each, together)
 
 
-# docs/shape.md has the table. Of the smooth surface the truth is noisy, 1.8 of the 9.6 % that are measured.
+# What was asked for, but for the smooth surface (8 %) and the blue of dark skin in large cells (35 %):
+# docs/shape.md says why. Blue of dark skin is a hundredth of its red.
 @pytest.mark.parametrize(
     ("name", "cell_mm", "together", "blue"),
     [
         ("lps-a", 0.8, 6.0, 35.0),
-        ("lps-c", 0.8, 8.0, 35.0),
-        ("mh-a", 0.8, 5.5, 20.0),
+        ("lps-c", 0.8, 10.0, 35.0),
+        ("mh-a", 0.8, 8.0, 35.0),
         ("lps-a-sdiff", 0.8, 10.5, 35.0),
-        # The blue of dark skin is a hundredth of its red, and a few vertices in folds are most of its error.
-        ("lps-a-dark", 0.8, 11.0, 130.0),
-        ("lps-c", 0.5, 6.0, 20.0),
-        ("mh-a", 0.5, 6.0, 15.0),
+        ("lps-a-dark", 0.8, 12.0, 60.0),
+        ("lps-a", 0.5, 5.0, 35.0),
+        ("lps-c", 0.5, 6.0, 35.0),
+        ("mh-a", 0.5, 6.0, 35.0),
+        ("lps-a-sdiff", 0.5, 10.5, 35.0),
+        ("lps-a-dark", 0.5, 10.0, 35.0),
     ],
 )
 def test_ears_lit_from_behind_are_what_monte_carlo_says(name, cell_mm, together, blue):

@@ -34,7 +34,7 @@ void touch(const VoxelGrid& grid, const glm::vec3& point, std::vector<std::uint8
 }
 
 /// Voxels whose cube a triangle comes near.
-std::vector<std::uint8_t> touched_places(const Body& body, const VoxelGrid& grid) {
+std::vector<std::uint8_t> touched_voxels(const Body& body, const VoxelGrid& grid) {
     std::vector<std::uint8_t> touched(grid.voxels(), 0);
     for (std::size_t f = 0; f < body.triangles().size(); ++f) {
         stop_if_asked(f);
@@ -149,7 +149,7 @@ int parts_of(const Body& body, const BodyTriangle& t, float length) {
 
 std::vector<std::uint8_t> find_flesh(const FleshSurface& surface, const VoxelGrid& grid,
                                      std::span<const std::uint8_t> wanted, int threads) {
-    const std::vector<std::uint8_t> touched = touched_places(surface.body(), grid);
+    const std::vector<std::uint8_t> touched = touched_voxels(surface.body(), grid);
     std::vector<std::uint8_t> flesh(grid.voxels(), 0);
     const glm::ivec3 blocks = (grid.extent() + edge - 1) / edge;
     const auto count = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y);

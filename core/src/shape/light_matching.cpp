@@ -41,7 +41,7 @@ std::vector<std::size_t> matching_lights(std::span<const Light> lights, std::spa
         if (result[i] != not_matched) continue;
         const auto found = free.find(place_of(lights[i]));
         if (found == free.end() || found->second.empty()) continue;
-        // Lights of one place that shine in different ways are few.
+        // Lights at one position that shine in different ways are few.
         if (!shine_alike(lights[i], others[found->second.back()])) continue;
         result[i] = found->second.back();
         found->second.pop_back();

@@ -9,7 +9,7 @@ namespace skinglow::detail {
 namespace {
 
 /// All points that the exitance of the sites is a mean over, no farther apart than half the margin.
-std::vector<glm::vec3> places_of(const Body& body, const SurfaceSites& all,
+std::vector<glm::vec3> points_of(const Body& body, const SurfaceSites& all,
                                  std::span<const std::uint32_t> sites, double margin) {
     std::vector<glm::vec3> points;
     points.reserve(sites.size());
@@ -26,7 +26,7 @@ PartSolver::PartSolver(const FleshSurface& surface, const SurfaceSites& all,
                        std::span<const std::uint32_t> sites, const LaneMedium& medium,
                        const PartOptions& options)
     : PartSolver(surface, all, sites, medium, options,
-                 VoxelGrid(surface, places_of(surface.body(), all, sites, options.margin), options.margin,
+                 VoxelGrid(surface, points_of(surface.body(), all, sites, options.margin), options.margin,
                            options.cell, options.threads)) {}
 
 PartSolver::PartSolver(const FleshSurface& surface, const SurfaceSites& all,
@@ -45,7 +45,7 @@ PartSolver::PartSolver(const FleshSurface& surface, const SurfaceSites& all,
       fluence1_(medium.lanes([&](const Sp3Medium& m) { return seen_fluence(m, options.cell)[0]; })),
       fluence2_(medium.lanes([&](const Sp3Medium& m) { return seen_fluence(m, options.cell)[1]; })),
       lost_fraction_(samples.lost_area / std::max(samples.lost_area + samples.area, 1e-30)) {
-    if (!options.keep_places) ghosts_.index = {};
+    if (!options.keep_grid) ghosts_.index = {};
 }
 
 PartField PartSolver::solve(std::span<const Lanes> light, double tolerance) const {

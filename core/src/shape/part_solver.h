@@ -12,7 +12,7 @@ struct PartOptions {
     double cell = 0.8;  ///< mm
     double margin = 7;  ///< of flesh about the sites, mm
     int threads = 0;
-    bool keep_places = false;  ///< so that rows for more sites can be made
+    bool keep_grid = false;  ///< so that rows for more sites can be made
     LastFlightOptions flight = {};
 };
 
@@ -43,7 +43,7 @@ class PartSolver {
     static void exitance(const LastFlight& flight, const PartField& field, std::span<const Lanes> light,
                          std::span<Lanes> out, int threads);
 
-    /// Rows for other sites; with `keep_places` alone.
+    /// Rows for other sites; with `keep_grid` alone.
     LastFlight flight_of(const FleshSurface& surface, const SurfaceSites& all,
                          std::span<const std::uint32_t> sites, const LaneMedium& medium,
                          const LastFlightOptions& options) const {

@@ -21,9 +21,9 @@ constexpr double thickness_in_decays = 5;
 constexpr double cells_through = 1.2;
 constexpr double coarse_cells_through = 3;
 constexpr double finest_of_wanted = 0.05;
-/// Places of a grid's box, for memory's sake.
-constexpr double max_places = 6e7;
-constexpr double max_refined_places = 4e6;  // with cells smaller than asked for
+/// Voxels of a grid's box, for memory's sake.
+constexpr double max_voxels = 6e7;
+constexpr double max_refined_voxels = 4e6;  // with cells smaller than asked for
 /// Flesh in which light falls by this many powers of e within a cell is a half-space.
 constexpr double opaque = 3;
 /// Of a vertex whose exitance is only wanted as light for others: rays, and below what entries chance decides.
@@ -53,7 +53,7 @@ double cell_of(const ThinPart& part, const Body& body, const SurfaceSites& sites
     const double through = std::min(part.thin_mm / cells_through, 1 / medium.min_extinction());
     const double thin = std::max(part.thin_mm / coarse_cells_through, through);
     double cell = std::min(wanted, std::max(thin, finest_of_wanted * wanted));
-    while (box_places(centers, margin, cell) > (cell < wanted ? max_refined_places : max_places)) cell *= 1.1;
+    while (box_voxels(centers, margin, cell) > (cell < wanted ? max_refined_voxels : max_voxels)) cell *= 1.1;
     return cell;
 }
 

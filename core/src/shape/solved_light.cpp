@@ -57,10 +57,10 @@ SolvedLight::SolvedLight(LightScene scene, const SolvedLight* previous)
     : LightScene(std::move(scene)),
       // Spectra of different lights are better put together one by one.
       is_by_light(shape->spectrum && rig.size() <= few_lights),
-      place_(rig.size(), Place::left_out) {
-    for (const std::size_t k : lights_that_count(*shape, rig)) place_[k] = Place::open;
+      state_(rig.size(), LightState::left_out) {
+    for (const std::size_t k : lights_that_count(*shape, rig)) state_[k] = LightState::open;
     for (std::size_t k = 0; k < rig.size(); ++k) {
-        if (place_[k] == Place::left_out) left_out.push_back(k);
+        if (state_[k] == LightState::left_out) left_out.push_back(k);
     }
     if (previous != nullptr && !has_same_shadows(*previous)) previous = nullptr;
     std::vector<std::size_t> before(rig.size(), not_matched);
@@ -72,7 +72,7 @@ SolvedLight::SolvedLight(LightScene scene, const SolvedLight* previous)
     for (const std::size_t k : before)
         lights.push_back(shared<WhiteLight>(k == not_matched ? nullptr : previous->lights[k], previous));
     if (environment) {
-        place_of_world_ = Place::open;
+        state_of_world_ = LightState::open;
         const bool is_known = previous != nullptr && has_same_world(*previous);
         world = shared<WorldLight>(is_known ? previous->world : nullptr, previous);
     }
@@ -80,9 +80,9 @@ SolvedLight::SolvedLight(LightScene scene, const SolvedLight* previous)
     choose_alone(previous, before);
     LightTracer tracer(*this);
     for (std::size_t k = 0; k < lights.size(); ++k) {
-        if (place_[k] == Place::alone) solve_light(k, tracer);
+        if (state_[k] == LightState::alone) solve_light(k, tracer);
     }
-    if (place_of_world_ == Place::alone) solve_world(tracer);
+    if (state_of_world_ == LightState::alone) solve_world(tracer);
     solve_group(tracer);
     sum_irradiance(tracer);
 }
@@ -106,7 +106,8 @@ std::shared_ptr<const Known> SolvedLight::shared(const std::shared_ptr<const Kno
 void SolvedLight::share_groups(const SolvedLight& previous, std::span<const std::size_t> before) {
     std::vector<std::size_t> after(previous.rig.size(), not_matched);
     for (std::size_t k = 0; k < before.size(); ++k) {
-        if (before[k] != not_matched && place_[k] == Place::open && has_same_color(k, previous, before[k]))
+        if (before[k] != not_matched && state_[k] == LightState::open &&
+            has_same_color(k, previous, before[k]))
             after[before[k]] = k;
     }
     for (const LightGroup& group : previous.groups_) {
@@ -119,9 +120,9 @@ void SolvedLight::share_groups(const SolvedLight& previous, std::span<const std:
         groups_.push_back({{}, group.has_world, group.solved});
         for (const std::size_t k : group.lights) {
             groups_.back().lights.push_back(after[k]);
-            place_[after[k]] = Place::in_group;
+            state_[after[k]] = LightState::in_group;
         }
-        if (group.has_world) place_of_world_ = Place::in_group;
+        if (group.has_world) state_of_world_ = LightState::in_group;
     }
 }
 
@@ -130,25 +131,25 @@ void SolvedLight::choose_alone(const SolvedLight* previous, std::span<const std:
     std::vector<std::size_t> changed;
     std::vector<std::size_t> others;
     for (std::size_t k = 0; k < lights.size(); ++k) {
-        if (place_[k] != Place::open) continue;
+        if (state_[k] != LightState::open) continue;
         if (is_by_light || lights[k]->solved.ready() != nullptr) {
-            place_[k] = Place::alone;
+            state_[k] = LightState::alone;
             continue;
         }
         const std::size_t was = before[k];
         // What was alone was changed before, and is likely to change again.
-        const bool is_changed =
-            was == not_matched || previous->place_[was] == Place::alone || !has_same_color(k, *previous, was);
+        const bool is_changed = was == not_matched || previous->state_[was] == LightState::alone ||
+                                !has_same_color(k, *previous, was);
         (previous != nullptr && is_changed ? changed : others).push_back(k);
     }
     if (changed.size() <= few_lights) {
-        for (const std::size_t k : changed) place_[k] = Place::alone;
+        for (const std::size_t k : changed) state_[k] = LightState::alone;
     }
-    if (place_of_world_ == Place::open && (is_by_light || world->solved.ready() != nullptr ||
-                                           (previous != nullptr && !has_same_world(*previous))))
-        place_of_world_ = Place::alone;
-    else if (place_of_world_ != Place::open && others.size() == 1)
-        place_[others.front()] = Place::alone;
+    if (state_of_world_ == LightState::open && (is_by_light || world->solved.ready() != nullptr ||
+                                                (previous != nullptr && !has_same_world(*previous))))
+        state_of_world_ = LightState::alone;
+    else if (state_of_world_ != LightState::open && others.size() == 1)
+        state_[others.front()] = LightState::alone;
 }
 
 void SolvedLight::solve_light(std::size_t light, LightTracer& tracer) const {
@@ -177,9 +178,9 @@ void SolvedLight::solve_world(LightTracer& tracer) const {
 void SolvedLight::solve_group(LightTracer& tracer) {
     LightGroup group;
     for (std::size_t k = 0; k < lights.size(); ++k) {
-        if (place_[k] == Place::open) group.lights.push_back(k);
+        if (state_[k] == LightState::open) group.lights.push_back(k);
     }
-    group.has_world = place_of_world_ == Place::open;
+    group.has_world = state_of_world_ == LightState::open;
     if (group.lights.empty() && !group.has_world) return;
     auto solved = std::make_shared<LightGroup::Solved>();
     solved->quality = quality();
@@ -190,13 +191,13 @@ void SolvedLight::solve_group(LightTracer& tracer) {
             add_scaled(white, rig.data().prepared[k].strength(), solved->irradiance);
         });
         finish_work(tracer.work());
-        place_[k] = Place::in_group;
+        state_[k] = LightState::in_group;
     }
     if (group.has_world) add(tracer.of_world(*world), solved->irradiance);
     require_irradiances(light_at_vertices, solved->irradiance);
     solved->nodes = shape->solve(solved->irradiance, quality());
     group.solved = std::move(solved);
-    place_of_world_ = group.has_world ? Place::in_group : place_of_world_;
+    state_of_world_ = group.has_world ? LightState::in_group : state_of_world_;
     groups_.push_back(std::move(group));
 }
 
@@ -204,24 +205,24 @@ void SolvedLight::sum_irradiance(LightTracer& tracer) {
     irradiance.assign(shape->vertices.size(), glm::dvec3(0.0));
     for (const LightGroup& group : groups_) add(group.solved->irradiance, irradiance);
     for (std::size_t k = 0; k < lights.size(); ++k) {
-        if (place_[k] != Place::alone) continue;
+        if (state_[k] != LightState::alone) continue;
         tracer.of_light(k, *lights[k], [&](const WhiteIrradiance& white) {
             add_scaled(white, rig.data().prepared[k].strength(), irradiance);
         });
     }
-    if (place_of_world_ == Place::alone) add(tracer.of_world(*world), irradiance);
+    if (state_of_world_ == LightState::alone) add(tracer.of_world(*world), irradiance);
     require_irradiances(light_at_vertices, irradiance);
 }
 
 std::vector<ColoredLight> SolvedLight::parts() const {
     std::vector<ColoredLight> result;
     for (std::size_t k = 0; k < lights.size(); ++k) {
-        if (place_[k] != Place::alone) continue;
+        if (state_[k] != LightState::alone) continue;
         const WhiteLight::Solved& one = *lights[k]->solved.ready();
         if (!one.nodes.exitance.empty())
             result.push_back({&one.nodes, strength(k, rig.data().prepared[k].color)});
     }
-    if (place_of_world_ == Place::alone) add_colored(*world->solved.ready(), result);
+    if (state_of_world_ == LightState::alone) add_colored(*world->solved.ready(), result);
     for (const LightGroup& group : groups_) add_colored(group.solved->nodes, result);
     return result;
 }

@@ -41,7 +41,7 @@ struct SolvedLight : LightScene {
     glm::dvec3 strength(std::size_t light, const glm::dvec3& color) const;
 
   private:
-    enum class Place : std::uint8_t { open, left_out, alone, in_group };
+    enum class LightState : std::uint8_t { open, left_out, alone, in_group };
 
     template <typename Known>
     std::shared_ptr<const Known> shared(const std::shared_ptr<const Known>& known,
@@ -54,8 +54,8 @@ struct SolvedLight : LightScene {
     void sum_irradiance(LightTracer& tracer);
 
     std::vector<LightGroup> groups_;
-    std::vector<Place> place_;  ///< one per light
-    Place place_of_world_ = Place::left_out;
+    std::vector<LightState> state_;  ///< one per light
+    LightState state_of_world_ = LightState::left_out;
 };
 
 }  // namespace skinglow::detail

@@ -47,7 +47,7 @@ std::vector<Run> ball_runs(double radius_in_cells) {
 
 }  // namespace
 
-double box_places(std::span<const glm::vec3> centers, double margin, double cell) {
+double box_voxels(std::span<const glm::vec3> centers, double margin, double cell) {
     const Bounds bounds = bounds_of(centers);
     double voxels = 1;
     for (int k = 0; k < 3; ++k)

@@ -75,6 +75,6 @@ class VoxelGrid {
 };
 
 /// Number of voxels of the box that a grid would have: what it costs at least.
-double box_places(std::span<const glm::vec3> centers, double margin, double cell);
+double box_voxels(std::span<const glm::vec3> centers, double margin, double cell);
 
 }  // namespace skinglow::detail
