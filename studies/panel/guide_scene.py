@@ -23,7 +23,6 @@ def build_guide_scene(mesh: str) -> bpy.types.Object:
     scene.cycles.preview_samples = 32
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.010, 0.011, 0.013, 1.0)
     light_behind_ear(scene, head).name = "Behind the ear"
-    head.skinglow.weights = "SURFACE"
     ear, height = views_of(head)["_ear"]
     aim_camera(scene, ear, height, 0.9)
     scene.render.resolution_x, scene.render.resolution_y, scene.cycles.samples = 640, 640, 128

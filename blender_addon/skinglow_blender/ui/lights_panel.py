@@ -127,12 +127,11 @@ def _draw_shape(column: bpy.types.UILayout, report: ShapeReport, context: bpy.ty
     if report.ready_parts < report.parts:
         solved += ", no light falls on the others"
     draw_wrapped(column, solved, context, "MESH_DATA")
-    column.label(
-        text=f"{report.cells:,} cells, {report.bytes / 1e6:.0f} MB, {report.milliseconds:.0f} ms", icon="BLANK1"
-    )
+    cost = f"{report.cells:,} cells, {report.bytes / 1e6:.0f} MB, {report.milliseconds:.0f} ms"
+    draw_wrapped(column, cost, context, "BLANK1")
     if report.error:
         error = ", ".join(f"{part:.0%}" for part in report.error)
-        column.label(text=f"Estimated error {error} (R, G, B)", icon="BLANK1")
+        draw_wrapped(column, f"Estimated error {error} (R, G, B)", context, "BLANK1")
     if report.thick_points:
         share = report.thick_points / report.points
         draw_wrapped(column, f"{share:.0%} of the skin shown is too thick for light to come through", context, "BLANK1")
