@@ -22,7 +22,10 @@ PARTS = {
     "skins": "Skins",
     "lights": "Each light",
 }
-CREDIT = "The ear is of a scan: Infinite, 3D Head Scan by Lee Perry-Smith, CC BY 3.0, based on a work at www.triplegangers.com."
+CREDIT = (
+    "The ear is of a scan: Infinite, 3D Head Scan by Lee Perry-Smith, CC BY 3.0, "
+    "based on a work at www.triplegangers.com."
+)
 FILM = """
 <script>
 const pictures = document.querySelectorAll(".film div"), slide = document.querySelector(".film input");
