@@ -1,4 +1,4 @@
-"""What light in a real ear costs, in seconds of one thread, beside the Monte Carlo that is its reference.
+"""What light in a real ear costs, in seconds of one thread, beside what was asked and the Monte Carlo of reference.
 
 Usage: python tests/benchmarks/shape_times.py [CELL_MM]      needs ../shared/data/shape
 """
@@ -47,26 +47,40 @@ def main(cell_mm: float) -> None:
         where = {"points": vertices[chosen], "normals": normals[chosen], "threads": 1, "cell_mm": cell_mm}
         return sg.Shape(vertices, triangles, **SKIN, **where)
 
+    def line(what: str, value: float, unit: str, bar: float | None = None) -> None:
+        asked = "" if bar is None else f"   asked: below {bar:g}, {'met' if value < bar else 'NOT MET'}"
+        print(f"{what:42s}{value:10.3f} {unit}{asked}")
+
     irradiance = truth["irradiance"].astype(float)
     ear = make(one)
     prepare = seconds(lambda: make(one).exitance(irradiance), 2)
     move = seconds(lambda: ear.exitance(irradiance))
     print(f"cell {cell_mm} mm, {len(one)} points of one ear, three channels, one thread")
-    print(f"prepare and first light            {prepare - move:8.3f} s")
-    print(f"moved light, irradiance given      {1e3 * move:8.1f} ms")
+    line("prepare and first light", prepare - move, "s", 2)
+    line("moved light, irradiance given", 1e3 * move, "ms", 30)
     behind = [light((-160.0, 400.0, 100.0))]
     ear.light(behind, reentries=0)
-    print(f"moved light, its shadows traced    {1e3 * seconds(lambda: ear.light(behind, reentries=0)):8.1f} ms")
+    line("moved light, its shadows traced", 1e3 * seconds(lambda: ear.light(behind, reentries=0)), "ms")
     ear.light(behind)
-    print(f"the same, two re-entries           {1e3 * seconds(lambda: ear.light(behind)):8.1f} ms")
+    line("the same, two re-entries", 1e3 * seconds(lambda: ear.light(behind)), "ms")
     lit = ear.light(behind)
     lit.recolor([(1.0, 0.5, 0.2)])
-    print(f"another color                      {1e3 * seconds(lambda: lit.recolor([(1.0, 0.5, 0.2)])):8.3f} ms")
-    print(f"memory                             {ear.bytes / len(one) / 1000:8.1f} kB a point")
+    line("another color", 1e3 * seconds(lambda: lit.recolor([(1.0, 0.5, 0.2)])), "ms", 1)
+    line("memory", ear.bytes / len(one) / 1000, "kB a point", 15)
     ears = make(both)
-    many = [light((600.0 * np.cos(t), 400.0, 600.0 * np.sin(t))) for t in np.linspace(0.0, 3.0, 16)]
-    ears.light(many, reentries=0)
-    print(f"both ears, 16 lights, all shadows  {1e3 * seconds(lambda: ears.light(many, reentries=0)):8.1f} ms")
+    ears.light(behind, reentries=0)
+    # Twice as many points take twice the time where it is linear.
+    everywhere = np.ones(len(vertices))
+    ear.exitance(everywhere)
+    ears.exitance(everywhere)
+    pair = seconds(lambda: ears.exitance(everywhere)) / seconds(lambda: ear.exitance(everywhere))
+    line("both ears over one, a point", pair * len(one) / len(both), "times", 1.1)
+    for count in (1, 4, 16, 64):
+        angles = np.linspace(0.0, 3.0, count)
+        many = [light((600.0 * np.cos(t), 400.0, 600.0 * np.sin(t))) for t in angles]
+        ears.light(many, reentries=0)
+        taken = 1e3 * seconds(lambda many=many: ears.light(many, reentries=0), 9)
+        line(f"both ears, {count} lights, all shadows", taken, "ms", 120 if count == 16 else None)
     reference = float(truth["cpu_s"].sum())
     print(f"Monte Carlo, 7 to 18 % of noise    {reference:8.1f} s = {reference / move:.0f} moved lights")
 

@@ -7,6 +7,8 @@
 namespace skinglow::detail {
 
 double length(const glm::dvec3& v) {
+    const double length_sq = glm::dot(v, v);
+    if (length_sq > 1e-280 && length_sq < 1e280) return std::sqrt(length_sq);
     return std::hypot(v.x, v.y, v.z);
 }
 

@@ -70,7 +70,7 @@ double PreparedLight::distance(const glm::dvec3& point) const {
 
 PreparedLight::BallTerm PreparedLight::ball_term(double distance) const {
     const double effective_distance =
-        soft_falloff_ ? std::hypot(distance, radius_) : std::max(distance, radius_);
+        soft_falloff_ ? length(glm::dvec3(distance, radius_, 0.0)) : std::max(distance, radius_);
     const double clamped = std::max(effective_distance, min_light_distance);
     return {0.25 / pi / clamped / clamped, radius_ > 0.0 ? radius_ / effective_distance : 0.0,
             !soft_falloff_ && distance < radius_};

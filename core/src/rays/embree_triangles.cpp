@@ -6,6 +6,8 @@
 #include <embree4/rtcore.h>
 #endif
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -139,6 +141,67 @@ RTCRayHit intersect(RTCScene scene, const glm::dvec3& origin, const glm::dvec3& 
     return query;
 }
 
+#if RTC_VERSION_MAJOR >= 4
+RTCOccludedArguments coherent_arguments(QueryContext& context) {
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &context;
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    return arguments;
+}
+#endif
+
+void occluded_by(RTCScene scene, const int* valid, RTCRay4& rays, QueryContext& context) {
+#if RTC_VERSION_MAJOR >= 4
+    RTCOccludedArguments arguments = coherent_arguments(context);
+    rtcOccluded4(valid, scene, &rays, &arguments);
+#else
+    rtcOccluded4(valid, scene, &context, &rays);
+#endif
+}
+
+void occluded_by(RTCScene scene, const int* valid, RTCRay8& rays, QueryContext& context) {
+#if RTC_VERSION_MAJOR >= 4
+    RTCOccludedArguments arguments = coherent_arguments(context);
+    rtcOccluded8(valid, scene, &rays, &arguments);
+#else
+    rtcOccluded8(valid, scene, &context, &rays);
+#endif
+}
+
+/// @tparam Packet  RTCRay4 or RTCRay8
+template <typename Packet>
+void find_occluded(RTCScene scene, std::span<const RaySegment> rays, std::span<std::uint8_t> result) {
+    constexpr std::size_t width = std::extent_v<decltype(Packet::tfar)>;
+    FilterContext context{.embree = {}, .excluded = {}, .visitor = nullptr};
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&context.embree);
+#else
+    rtcInitIntersectContext(&context.embree);
+    context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+#endif
+    for (std::size_t begin = 0; begin < rays.size(); begin += width) {
+        const std::size_t count = std::min(width, rays.size() - begin);
+        alignas(32) std::array<int, width> valid{};
+        Packet packet{};
+        for (std::size_t i = 0; i < count; ++i) {
+            const RaySegment& ray = rays[begin + i];
+            valid[i] = -1;
+            packet.org_x[i] = ray.origin.x;
+            packet.org_y[i] = ray.origin.y;
+            packet.org_z[i] = ray.origin.z;
+            packet.dir_x[i] = ray.direction.x;
+            packet.dir_y[i] = ray.direction.y;
+            packet.dir_z[i] = ray.direction.z;
+            packet.tnear[i] = ray.from;
+            packet.tfar[i] = ray.to;
+            packet.mask[i] = ~0U;
+        }
+        occluded_by(scene, valid.data(), packet, context.embree);
+        for (std::size_t i = 0; i < count; ++i) result[begin + i] = packet.tfar[i] < 0 ? 1 : 0;
+    }
+}
+
 }  // namespace
 
 void require_embree(long version_major, long filter_functions) {
@@ -161,6 +224,11 @@ void require_embree(long version_major, long filter_functions) {
 struct EmbreeTriangles::Handles {
     Owned<RTCDevice> device = open_device();
     Owned<RTCScene> scene{rtcNewScene(device.get())};
+    // What Embree was built without it refuses, or does ray by ray.
+    bool has_packets_of_8 =
+        rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0;
+    bool has_packets_of_4 =
+        rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED) != 0;
 };
 
 EmbreeTriangles::EmbreeTriangles(std::span<const glm::dvec3> points, std::span<const glm::uvec3> corners)
@@ -207,6 +275,20 @@ bool EmbreeTriangles::occluded(const glm::dvec3& origin, const glm::dvec3& direc
     rtcOccluded1(handles_->scene.get(), &context.embree, &ray);
 #endif
     return ray.tfar < 0;
+}
+
+void EmbreeTriangles::occluded(std::span<const RaySegment> rays, std::span<std::uint8_t> result) const {
+    RTCScene scene = handles_->scene.get();
+    if (handles_->has_packets_of_8) {
+        find_occluded<RTCRay8>(scene, rays, result);
+    } else if (handles_->has_packets_of_4) {
+        find_occluded<RTCRay4>(scene, rays, result);
+    } else {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const RaySegment& ray = rays[i];
+            result[i] = occluded(ray.origin, ray.direction, ray.from, ray.to) ? 1 : 0;
+        }
+    }
 }
 
 }  // namespace skinglow::detail

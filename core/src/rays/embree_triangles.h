@@ -25,6 +25,13 @@ struct TriangleHit {
     float u, v;  ///< barycentric, of the triangle's second and third corner
 };
 
+/// A ray between two distances.
+struct RaySegment {
+    glm::vec3 origin;
+    glm::vec3 direction;  ///< unit length
+    float from, to;
+};
+
 /// Told each hit of a ray, in no order: distance and triangle. Returns how far along the ray hits still
 /// matter; infinity for no limit. Must not throw.
 using HitVisitor = std::function<float(float distance, std::uint32_t triangle)>;
@@ -55,6 +62,10 @@ class EmbreeTriangles {
     /// @param excluded   triangles that do not count
     bool occluded(const glm::dvec3& origin, const glm::dvec3& direction, float from, float to,
                   std::span<const TriangleRange> excluded = {}) const;
+
+    /// The same of many rays, several at a time: fast where those that follow each other are alike.
+    /// @param result  as many; 1 where a triangle lies in between, else 0
+    void occluded(std::span<const RaySegment> rays, std::span<std::uint8_t> result) const;
 
   private:
     struct Handles;

@@ -54,14 +54,17 @@ class LightSampler {
     double cap_height_ = 0;  ///< 1 - cos of their angular radius
 };
 
-/// Visible fraction of a light at a point where it has an effect, by rays to points that cover it.
+/// Calls `use(LightSample, weight)` for the rays that tell how much of a light is seen at a point where it has an
+/// effect: the visible fraction is the weight of those that nothing is in the way of, over that of all, which is above 0.
 /// @param sampler  of the light and the point
 /// @param index    of the point, for its samples
 /// @param samples  rays to a light that has an extent; one goes to a light that has none
-/// @param sees     sees(LightSample): whether nothing is in the way of a ray
-template <typename Sees>
-double visible_fraction_at(const LightSampler& sampler, std::size_t index, int samples, const Sees& sees) {
-    if (sampler.is_sharp()) return sees(sampler.center()) ? 1.0 : 0.0;
+template <typename Use>
+void for_each_light_sample(const LightSampler& sampler, std::size_t index, int samples, const Use& use) {
+    if (sampler.is_sharp()) {
+        use(sampler.center(), 1.0);
+        return;
+    }
     // Points of the unit square: the rank-1 lattice of the golden ratio, shifted by the point's own member of the R2
     // sequence (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018), whose base is the real
     // root of x^3 = x + 1.
@@ -70,8 +73,7 @@ double visible_fraction_at(const LightSampler& sampler, std::size_t index, int s
     const auto fraction = [](double value) { return value - std::floor(value); };
     const double shift_u = fraction(static_cast<double>(index) / plastic);
     const double shift_v = fraction(static_cast<double>(index) / plastic / plastic);
-    double all = 0;
-    double seen = 0;
+    bool is_any = false;
     LightSample highest{};
     double highest_cosine = -2;
     for (int i = 0; i < samples; ++i) {
@@ -84,11 +86,23 @@ double visible_fraction_at(const LightSampler& sampler, std::size_t index, int s
         }
         const double weight = std::max(0.0, cosine) * ray.emission;
         if (weight == 0.0) continue;
-        all += weight;
-        if (sees(ray)) seen += weight;
+        is_any = true;
+        use(ray, weight);
     }
     // A sliver of the light between the samples: the ray highest above the horizon stands for it.
-    if (all == 0.0) return sees(highest) ? 1.0 : 0.0;
+    if (!is_any) use(highest, 1.0);
+}
+
+/// Visible fraction of a light at a point where it has an effect, by rays to points that cover it.
+/// @param sees     sees(LightSample): whether nothing is in the way of a ray
+template <typename Sees>
+double visible_fraction_at(const LightSampler& sampler, std::size_t index, int samples, const Sees& sees) {
+    double all = 0;
+    double seen = 0;
+    for_each_light_sample(sampler, index, samples, [&](const LightSample& ray, double weight) {
+        all += weight;
+        if (sees(ray)) seen += weight;
+    });
     return std::min(1.0, seen / all);
 }
 

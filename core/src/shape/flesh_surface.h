@@ -44,6 +44,14 @@ class FleshSurface {
         return rays_.occluded(origin, direction, gap_, to);
     }
 
+    /// The same of many rays; those that follow each other should be alike.
+    /// @param rays    `from` is not looked at, and set
+    /// @param result  as many, 1 where the surface stops it, else 0
+    void block(std::span<RaySegment> rays, std::span<std::uint8_t> result) const {
+        for (RaySegment& ray : rays) ray.from = gap_;
+        rays_.occluded(rays, result);
+    }
+
     /// What a ray that begins on the surface keeps away from it, mm.
     float gap() const { return gap_; }
 

@@ -147,8 +147,7 @@ int Sp3System::solve(std::span<const LanePair> right, std::span<LanePair> modes,
     std::vector<LanePair> residual(modes.size());
     std::vector<LanePair> direction(count);
     std::vector<LanePair> above(modes.size());  // K^-T direction
-    std::vector<LanePair> left(count);          // (1 - D K^-T) direction
-    std::vector<LanePair> below(modes.size());  // K^-1 of that
+    std::vector<LanePair> below(modes.size());  // (1 - D K^-T) direction, and then K^-1 of that in its place
     CellSum first;
     for (std::size_t c = 0; c < count; ++c) {
         solve_lower(c, right[c], residual);
@@ -176,11 +175,11 @@ int Sp3System::solve(std::span<const LanePair> right, std::span<LanePair> modes,
             d = {z.first + keep * d.first, z.second + keep * d.second};
             const LanePair from = {flux1_ * around.first, flux2_ * around.second};
             above[c] = solve_block(c, d.first + from.first, d.second + from.second);
-            left[c] = from * -1.0F;
+            below[c] = from * -1.0F;
         }
         CellSum sum;
         for (std::size_t c = 0; c < count; ++c) {
-            solve_lower(c, left[c], below);
+            solve_lower(c, below[c], below);
             sum.add(c, direction[c], {above[c].first + below[c].first, above[c].second + below[c].second});
         }
         const LaneSum curvature = sum.total();

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "geometry/vector.h"
 #include "numerics/parallel_blocks.h"
@@ -30,6 +31,15 @@ constexpr float lift_mm = 0.02F;
 /// Of a vertex that does not receive light.
 constexpr float no_light = -1;
 constexpr std::size_t block = 256;
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// Ten bits, each two places from the next.
+std::uint32_t spread_bits(std::uint32_t x) {
+    x = (x | x << 16U) & 0x030000FFU;
+    x = (x | x << 8U) & 0x0300F00FU;
+    x = (x | x << 4U) & 0x030C30C3U;
+    return (x | x << 2U) & 0x09249249U;
+}
 
 }  // namespace
 
@@ -40,6 +50,7 @@ VertexLight::VertexLight(const FleshSurface& surface, std::span<const glm::dvec3
     for (std::uint32_t v = 0; v < wanted.size(); ++v) {
         if (wanted[v] != 0) wanted_.push_back(v);
     }
+    sort_by_place();
     receivers_.reserve(wanted_.size());
     for (const std::uint32_t v : wanted_) receivers_.push_back(receiver_of(v));
     for (const BodyTriangle& t : surface.body().triangles()) {
@@ -47,6 +58,29 @@ VertexLight::VertexLight(const FleshSurface& surface, std::span<const glm::dvec3
             triangles_.push_back(t.corners);
     }
     if (options.occluders != nullptr) excluded_ = options.occluders->scene().triangles_of(options.excluded);
+}
+
+/// Neighbors after each other, along the Z-order curve: their rays to a light are alike, and packets of them fast.
+void VertexLight::sort_by_place() {
+    std::vector<glm::vec3> places;
+    glm::vec3 low(std::numeric_limits<float>::max());
+    glm::vec3 high(std::numeric_limits<float>::lowest());
+    for (const std::uint32_t v : wanted_) {
+        places.push_back(sites_.sites()[sites_.site_of()[v]].position);
+        low = glm::min(low, places.back());
+        high = glm::max(high, places.back());
+    }
+    constexpr float cells = 1023;  // 10 bits an axis
+    const glm::vec3 scale = cells / glm::max(high - low, glm::vec3(std::numeric_limits<float>::min()));
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
+    order.reserve(wanted_.size());
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+        const glm::uvec3 cell(glm::clamp((places[i] - low) * scale, 0.0F, cells));
+        order.emplace_back(spread_bits(cell.x) | spread_bits(cell.y) << 1U | spread_bits(cell.z) << 2U,
+                           wanted_[i]);
+    }
+    std::sort(order.begin(), order.end());
+    for (std::size_t i = 0; i < wanted_.size(); ++i) wanted_[i] = order[i].second;
 }
 
 VertexLight::Receiver VertexLight::receiver_of(std::uint32_t vertex) const {
@@ -58,20 +92,57 @@ VertexLight::Receiver VertexLight::receiver_of(std::uint32_t vertex) const {
             size > 0 ? normal / size : glm::dvec3(0.0)};
 }
 
-bool VertexLight::sees(const Receiver& receiver, const glm::dvec3& direction, double distance) const {
-    const double mm = std::min(distance * unit_mm_, static_cast<double>(std::numeric_limits<float>::max()));
-    if (surface_.blocks(receiver.origin, direction, static_cast<float>(mm))) return false;
+float VertexLight::to_mm(double distance) const {
+    return static_cast<float>(
+        std::min(distance * unit_mm_, static_cast<double>(std::numeric_limits<float>::max())));
+}
+
+bool VertexLight::passes_occluders(const Receiver& receiver, const glm::dvec3& direction,
+                                   double distance) const {
     if (options_.occluders == nullptr) return true;
     const RigidMotion& frame = options_.to_occluders;
     return !options_.occluders->scene().occluded(frame.point(receiver.point), frame.direction(direction),
                                                  distance, excluded_);
 }
 
-double VertexLight::fraction(const LightSampler& sampler, const Receiver& receiver, std::uint32_t vertex,
-                             int samples) const {
-    return visible_fraction_at(sampler, vertex, samples, [&](const LightSample& ray) {
-        return sees(receiver, ray.direction, ray.distance);
-    });
+/// Finds what some receivers see of a light.
+/// @param is_asked    is_asked(receiver's index): whether it is one of them
+/// @param samples_of  samples_of(receiver's index, sampler): how many rays go to the light from it
+template <typename Asked, typename Samples>
+void VertexLight::find_fractions(const PreparedLight& light, std::size_t begin, std::size_t end,
+                                 const Asked& is_asked, const Samples& samples_of,
+                                 std::span<float> seen) const {
+    struct Ray {
+        std::size_t receiver;
+        double weight;
+        LightSample sample;
+    };
+    std::vector<Ray> rays;
+    std::vector<RaySegment> segments;
+    for (std::size_t i = begin; i < end; ++i) {
+        if (!is_asked(i)) continue;
+        const Receiver& receiver = receivers_[i];
+        const LightSampler sampler(light, receiver.point, receiver.normal);
+        for_each_light_sample(
+            sampler, wanted_[i], samples_of(i, sampler), [&](const LightSample& ray, double weight) {
+                rays.push_back({i, weight, ray});
+                segments.push_back({receiver.origin, ray.direction, 0, to_mm(ray.distance)});
+            });
+    }
+    std::vector<std::uint8_t> is_blocked(rays.size());
+    surface_.block(segments, is_blocked);
+    for (std::size_t r = 0; r < rays.size();) {
+        const std::size_t i = rays[r].receiver;
+        double all = 0;
+        double visible = 0;
+        for (; r < rays.size() && rays[r].receiver == i; ++r) {
+            all += rays[r].weight;
+            if (is_blocked[r] == 0 &&
+                passes_occluders(receivers_[i], rays[r].sample.direction, rays[r].sample.distance))
+                visible += rays[r].weight;
+        }
+        seen[wanted_[i]] = static_cast<float>(std::min(1.0, visible / all));
+    }
 }
 
 std::vector<std::uint8_t> VertexLight::doubtful(std::span<const float> fraction) const {
@@ -94,37 +165,39 @@ std::vector<std::uint8_t> VertexLight::doubtful(std::span<const float> fraction)
 WhiteIrradiance VertexLight::of_light(const PreparedLight& light, bool has_shadows) const {
     std::vector<float> seen(vertices_.size(), no_light);
     std::vector<double> open(wanted_.size(), 0.0);
+    std::vector<std::uint8_t> is_narrow(wanted_.size(), 0);
     const auto first = [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Receiver& receiver = receivers_[i];
             if (receiver.normal == glm::dvec3(0.0)) continue;
             open[i] = light.irradiance(receiver.point, receiver.normal, area_tolerance);
-            if (!(open[i] > 0)) continue;
-            const std::uint32_t v = wanted_[i];
-            if (!has_shadows) {
-                seen[v] = 1;
-                continue;
-            }
-            const LightSampler sampler(light, receiver.point, receiver.normal);
-            const int samples = sampler.sine() < narrow ? 1 : first_samples;
-            seen[v] = static_cast<float>(fraction(sampler, receiver, v, std::min(samples, options_.samples)));
+            if (!has_shadows && open[i] > 0) seen[wanted_[i]] = 1;
         }
+        const auto is_lit = [&](std::size_t i) { return has_shadows && open[i] > 0; };
+        const auto few = [&](std::size_t i, const LightSampler& sampler) {
+            is_narrow[i] = sampler.sine() < narrow ? 1 : 0;
+            return std::min(is_narrow[i] != 0 ? 1 : first_samples, options_.samples);
+        };
+        find_fractions(light, begin, end, is_lit, few, seen);
     };
     for_each_block(wanted_.size(), options_.threads, first, {}, block);
     const std::vector<std::uint8_t> again =
         has_shadows ? doubtful(seen) : std::vector<std::uint8_t>(seen.size(), 0);
     const auto second = [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::uint32_t v = wanted_[i];
-            if (seen[v] == no_light || again[v] == 0) continue;
-            const Receiver& receiver = receivers_[i];
-            const LightSampler sampler(light, receiver.point, receiver.normal);
-            if (options_.samples > first_samples && sampler.sine() < narrow) {
-                seen[v] = static_cast<float>(fraction(sampler, receiver, v, first_samples));
-                if (seen[v] == 0 || seen[v] == 1) continue;
-            }
-            seen[v] = static_cast<float>(fraction(sampler, receiver, v, options_.samples));
-        }
+        const auto is_asked = [&](std::size_t i) { return open[i] > 0 && again[wanted_[i]] != 0; };
+        const auto has_steps = [&](std::size_t i) {
+            return options_.samples > first_samples && is_narrow[i] != 0;
+        };
+        const auto some = [&](std::size_t i, const LightSampler&) {
+            return has_steps(i) ? first_samples : options_.samples;
+        };
+        find_fractions(light, begin, end, is_asked, some, seen);
+        const auto is_in_part = [&](std::size_t i) {
+            const float part = seen[wanted_[i]];
+            return is_asked(i) && has_steps(i) && part != 0 && part != 1;
+        };
+        const auto all = [&](std::size_t, const LightSampler&) { return options_.samples; };
+        find_fractions(light, begin, end, is_in_part, all, seen);
     };
     for_each_block(wanted_.size(), options_.threads, second, {}, block);
     WhiteIrradiance result{std::vector<float>(vertices_.size(), 0.0F)};
@@ -142,15 +215,23 @@ std::vector<glm::vec3> VertexLight::of_environment(const Environment& environmen
     const auto directions = cosine_directions(sky_rays);
     std::vector<glm::vec3> result(vertices_.size(), glm::vec3(0.0F));
     const auto work = [&](std::size_t begin, std::size_t end) {
+        std::vector<glm::dvec3> along(directions.size());
+        std::vector<RaySegment> segments(directions.size());
+        std::vector<std::uint8_t> is_blocked(directions.size());
         for (std::size_t i = begin; i < end; ++i) {
             const Receiver& receiver = receivers_[i];
             if (receiver.normal == glm::dvec3(0.0)) continue;
             const glm::dmat3 frame = frame_around(receiver.normal);
             // The harmonics' sum over all rays is not exactly their integral: only what is hidden is summed.
             glm::dvec3 hidden(0.0);
-            for (const glm::dvec3& local : directions) {
-                const glm::dvec3 direction = frame * local;
-                if (sees(receiver, direction, std::numeric_limits<double>::infinity())) continue;
+            for (std::size_t r = 0; r < directions.size(); ++r) {
+                along[r] = frame * directions[r];
+                segments[r] = {receiver.origin, along[r], 0, to_mm(unlimited)};
+            }
+            surface_.block(segments, is_blocked);
+            for (std::size_t r = 0; r < directions.size(); ++r) {
+                const glm::dvec3& direction = along[r];
+                if (is_blocked[r] == 0 && passes_occluders(receiver, direction, unlimited)) continue;
                 const auto harmonics = spherical_harmonics(direction);
                 for (std::size_t k = 0; k < 9; ++k) hidden += environment.coefficients()[k] * harmonics[k];
             }

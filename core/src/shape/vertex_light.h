@@ -56,10 +56,13 @@ class VertexLight {
         glm::vec3 origin;   ///< where rays begin, mm about the body's center
         glm::dvec3 normal;  ///< unit; 0: receives nothing
     };
+    void sort_by_place();
     Receiver receiver_of(std::uint32_t vertex) const;
-    bool sees(const Receiver& receiver, const glm::dvec3& direction, double distance) const;
-    double fraction(const LightSampler& sampler, const Receiver& receiver, std::uint32_t vertex,
-                    int samples) const;
+    float to_mm(double distance) const;
+    bool passes_occluders(const Receiver& receiver, const glm::dvec3& direction, double distance) const;
+    template <typename Asked, typename Samples>
+    void find_fractions(const PreparedLight& light, std::size_t begin, std::size_t end, const Asked& is_asked,
+                        const Samples& samples_of, std::span<float> seen) const;
     std::vector<std::uint8_t> doubtful(std::span<const float> fraction) const;
 
     const FleshSurface& surface_;
