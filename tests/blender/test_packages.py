@@ -126,7 +126,7 @@ def test_what_pip_fetches_is_pinned_by_digests() -> None:
     for path in lists:
         lines = path.with_suffix(".txt").read_text().replace("\\\n", " ").splitlines()
         pinned = [line for line in lines if line and not line.startswith("#")]
-        assert all(re.fullmatch(r"[\w.-]+==[\w.]+( ;.*?)?( +--hash=sha256:\w{64})+", line) for line in pinned), path.name
+        assert pinned and all(re.match(r"[\w.-]+==[\w.]+ .*--hash=sha256:\w{64}$", line) for line in pinned), path.name
         wanted = [re.match(r"[\w.-]+", line)[0] for line in path.read_text().splitlines()[1:]]
         assert set(wanted) <= {line.partition("==")[0] for line in pinned}, path.name
     fetching = "".join((PROJECT / "scripts" / name).read_text() for name in ("common.sh", "setup", "package"))
