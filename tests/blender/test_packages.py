@@ -93,7 +93,7 @@ def test_wheel_brings_its_licenses_and_nothing_else(python: str) -> None:
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
     assert {name.split("/")[0].split("-")[0] for name in names} == {"skinglow"}
-    assert {Path(name).stem for name in names if "/licenses/third_party/" in name} == THIRD_PARTY
+    assert {Path(name).stem for name in names if re.search("/licenses/third_party/.", name)} == THIRD_PARTY
 
 
 def test_bills_of_materials_and_licenses_tell_all_that_is_compiled_in() -> None:
@@ -103,7 +103,7 @@ def test_bills_of_materials_and_licenses_tell_all_that_is_compiled_in() -> None:
     for path, bill, more in held:
         with zipfile.ZipFile(path) as archive:
             names = archive.namelist()
-            texts = {Path(name).stem: archive.read(name) for name in names if "licenses/third_party/" in name}
+            texts = {Path(name).stem: archive.read(name) for name in names if re.search("licenses/third_party/.", name)}
             (bill,) = [name for name in names if Path(name).match(bill) and "/lib/" not in name]
             told = json.loads(archive.read(bill))
         assert set(texts) == THIRD_PARTY and all(len(text) > 1000 for text in texts.values()), path.name
