@@ -76,7 +76,7 @@ install_portable() {
     local wheel digest
     make_environment portable "$1" 'numpy>=1.23' 'matplotlib>=3.7' 'pytest>=8,<9' 'pytest-xdist>=3,<4' \
         'hypothesis>=6,<7' 'trimesh>=4,<5' 'meshio>=5,<6'
-    wheel=$(ls "$project"/build/packages/skinglow-*-"$("$1" -c 'import sys; print("cp%d%d" % sys.version_info[:2])')"-*.whl)
+    wheel=$(ls "$project"/build/packages/skinglow-*-"$("$1" -c 'import sys; print("cp%d%d" % sys.version_info[:2])')"-manylinux*.whl)
     digest=$(sha256sum <"$wheel")
     if [ "$(cat "$envs/portable/skinglow_digest" 2>/dev/null)" = "$digest" ]; then return; fi
     say "installing the portable wheel into portable"
