@@ -82,7 +82,7 @@ install_pinned() {
 install_portable() {
     local wheel digest
     make_environment portable "$1"
-    wheel=$(ls "$project"/build/packages/skinglow-*-"$("$1" -c 'import sys; print("cp%d%d" % sys.version_info[:2])')"-*.whl)
+    wheel=$(ls "$project"/build/packages/skinglow-*-"$("$1" -c 'import sys; print("cp%d%d" % sys.version_info[:2])')"-manylinux*.whl)
     digest=$(sha256sum <"$wheel")
     if [ "$(cat "$envs/portable/skinglow_digest" 2>/dev/null)" = "$digest" ]; then return; fi
     say "installing the portable wheel into portable"

@@ -3,11 +3,13 @@
 scripts/package makes the packages; SKINGLOW_PACKAGES says where they are.
 """
 
+import importlib.util
 import json
 import os
 import re
 import shutil
 import subprocess
+import sys
 import zipfile
 from pathlib import Path
 from urllib.parse import unquote, urlparse
@@ -58,7 +60,7 @@ def modules(wheel: Path, folder: Path) -> list[Path]:
 
 def zips() -> tuple[Path, Path]:
     """The extension for Blender 4.2 and later, the add-on for those before."""
-    (legacy,) = packages("skinglow_blender-*-legacy-linux-x64.zip")
+    (legacy,) = packages("skinglow_blender-*-legacy-*-linux-x64.zip")
     (extension,) = [path for path in packages("skinglow_blender-*-linux-x64.zip") if path != legacy]
     return extension, legacy
 
@@ -69,7 +71,7 @@ def objdump(*arguments: str) -> str:
 
 @pytest.mark.parametrize("python", ["cp311", "cp313"])
 def test_wheel_runs_on_any_linux(python: str, tmp_path: Path) -> None:
-    (wheel,) = packages(f"skinglow-*-{python}-{python}-*.whl")
+    (wheel,) = packages(f"skinglow-*-{python}-{python}-manylinux*.whl")
     tag = re.search(r"manylinux_2_(\d+)_x86_64", wheel.name)
     assert tag and int(tag[1]) <= GLIBC[1], wheel.name
     found = modules(wheel, tmp_path)
@@ -89,7 +91,7 @@ def test_wheel_runs_on_any_linux(python: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("python", ["cp311", "cp313"])
 def test_wheel_brings_its_licenses_and_nothing_else(python: str) -> None:
-    (wheel,) = packages(f"skinglow-*-{python}-{python}-*.whl")
+    (wheel,) = packages(f"skinglow-*-{python}-{python}-manylinux*.whl")
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
     assert {name.split("/")[0].split("-")[0] for name in names} == {"skinglow"}
@@ -141,11 +143,29 @@ def test_zips_hold_the_addon_and_no_leftovers() -> None:
     for path, inside in ((legacy, Path()), (extension, Path("skinglow_blender"))):
         with zipfile.ZipFile(path) as archive:
             held = {inside / name for name in archive.namelist() if not name.endswith("/")}
-        assert sources <= held, f"{path.name} lacks {sources - held}"
+        # An extension gets the core as a wheel, and needs no search path of its own.
+        wanted = sources if path == legacy else sources - {Path("skinglow_blender/bundled_core.py")}
+        assert wanted <= held, f"{path.name} lacks {wanted - held}"
         assert Path("skinglow_blender/LICENSE") in held
         assert not [name for name in held if "__pycache__" in name.parts]
         code = {name for name in held if name.suffix == ".py" and "lib" not in name.parts}
-        assert code == sources, f"{path.name} holds {code - sources}"
+        assert code == wanted, f"{path.name} holds {code - wanted}"
+        with zipfile.ZipFile(path) as archive:
+            text = archive.read(str(Path("skinglow_blender/__init__.py").relative_to(inside))).decode()
+        assert ("bl_info" in text) == ("bundled_core" in text) == (path == legacy)
+
+
+def test_legacy_addon_says_which_pythons_it_is_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    source = shutil.copy(PROJECT / "blender_addon/skinglow_blender/bundled_core.py", tmp_path)
+    (tmp_path / "lib/skinglow").mkdir(parents=True)
+    (tmp_path / "lib/skinglow/_core.cpython-39-x86_64-linux-gnu.so").touch()
+    spec = importlib.util.spec_from_file_location("bundled_core", source)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    monkeypatch.setattr(sys, "path", sys.path[:])
+    with pytest.raises(RuntimeError, match="for Python 3.9 on Linux; this Blender brings Python 3"):
+        module.register()
+    assert str(tmp_path / "lib") not in sys.path
 
 
 def test_zips_hold_the_manual() -> None:
