@@ -11,7 +11,7 @@ struct LightColors {
     explicit LightColors(std::shared_ptr<const WhiteLight> of) : light(std::move(of)) {}
 
     std::shared_ptr<const WhiteLight> light;
-    Lazy<ShapeData::Matrices> matrices;  ///< empty where it gives nothing
+    Lazy<ShapeData::Matrices> matrices;    ///< empty where it gives nothing
     Lazy<std::vector<glm::mat3>> through;  ///< exitance less what is reflected
 };
 struct WorldColors {
