@@ -99,11 +99,11 @@ def weight(objects, point, coefficients=(1.0, 0.0, 1.0)):
     return total
 
 
-def visible_lights(graph):
-    """(evaluated light, world matrix) of all that shine in a depsgraph, instances too."""
+def visible_lights(graph, dark=False):
+    """(evaluated light, world matrix) of all that shine in a depsgraph, instances too; dark: and without power."""
     for instance in graph.object_instances:
         obj = instance.object
-        if obj.type != "LIGHT" or obj.data.energy == 0.0:
+        if obj.type != "LIGHT" or (obj.data.energy == 0.0 and not dark):
             continue
         base = instance.parent if instance.is_instance else obj
         if graph.mode == "VIEWPORT" and not base.original.visible_get(view_layer=graph.view_layer):

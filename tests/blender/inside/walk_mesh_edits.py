@@ -35,6 +35,8 @@ class MeshEdits(SceneEdits):
         obj = self.meshed_skin()
         if obj is None or obj.modifiers or obj.parent or obj.animation_data or obj.constraints:
             return
+        if "deformed" in obj.data:
+            return
         depsgraph()
         before = obj[ROW_PROPERTY][0] * self.thickness(obj)
         bpy.ops.object.transform_apply(location=False, rotation=False, scale=True)
@@ -44,6 +46,14 @@ class MeshEdits(SceneEdits):
     def thickness(self, obj):
         values, known = thickness_attribute.read(obj.data)
         return values[known]
+
+    def deform(self):
+        obj = self.meshed_skin()
+        if obj is not None:
+            obj.data.vertices[self.random.randrange(len(obj.data.vertices))].co.x += 0.2
+            obj.data.update()
+            # By the vertices that are remembered for that, a scale that is applied afterwards is not told from this.
+            obj.data["deformed"] = True
 
     def join(self):
         """What is joined has no thickness."""
