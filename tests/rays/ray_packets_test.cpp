@@ -14,7 +14,8 @@ std::vector<RaySegment> some_rays(std::size_t count) {
     std::vector<RaySegment> rays;
     for (std::size_t i = 0; i < count; ++i) {
         const auto x = 0.37F * static_cast<float>(i % 8);
-        const auto y = 0.29F * static_cast<float>(i / 8);
+        const std::size_t row = i / 8;
+        const auto y = 0.29F * static_cast<float>(row);
         const glm::vec3 direction = glm::normalize(glm::vec3(0.3F, -0.2F, i % 3 == 0 ? -1.0F : 1.0F));
         rays.push_back({{x, y, -1.0F}, direction, 0.01F, i % 5 == 0 ? 0.5F : 100.0F});
     }
