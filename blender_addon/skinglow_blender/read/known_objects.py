@@ -53,6 +53,7 @@ class Known:
             key_of(scene),
             layer.name,
             len(layer.objects),
+            len(bpy.data.images),  # Blender 3.4 reports the scene alone when an image of a lookup is deleted
             scene.skinglow.occlusion,
             output_target(scene),
             working_space.working_space(),
