@@ -108,8 +108,8 @@ def _sections(out: Path, numbers: dict[str, Any]) -> list[str]:
         _section(
             "physical",
             "Mode physical has a unit: watts. A bulb behind the ear, nothing scaled by hand, exposure "
-            f"+{numbers['exposure_stops']:g} stops. One light for the whole object reaches what the bulb does "
-            "not; lit per pixel it does not; and through the shape, in the picture at the top, "
+            f"+{numbers['exposure_stops']:g} stops. Lit per object, flesh glows that the bulb does not light; lit per "
+            "pixel it does not; and through the shape, in the picture at the top, "
             "light comes in at the rim and runs along it.",
             _picture("physical.png", "Lit per object and per pixel", blender),
             "<p>The light alone is an output of the node. As a pass beside the picture it gets another color in "

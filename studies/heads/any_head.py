@@ -36,7 +36,7 @@ class Placed:
         return self.unit_mm / 1000.0 * self.orientation.rotation()
 
 
-def place(
+def place_head(
     vertices: Array,
     triangles: NDArray[np.integer],
     name: str,

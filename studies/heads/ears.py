@@ -33,7 +33,7 @@ class Ear:
 @dataclass
 class HeadSize:
     top: float  # z
-    bottom: float  # z of the chin or, where there is a neck, of its thinnest place
+    bottom: float  # z of the chin or, where there is a neck, of its thinnest slice
     width: float  # at the height of the ears, of which little counts
     middle_x: float
 
@@ -43,8 +43,8 @@ def measure(samples: Samples) -> HeadSize:
     x, _y, z = samples.points.T
     low, top = (float(q) for q in np.quantile(z, [0.0005, 0.9995]))
     slices = 60
-    place = np.clip(((top - z) / (top - low) * slices).astype(int), 0, slices - 1)
-    of_slices = [x[place == k] for k in range(slices)]
+    slice_of = np.clip(((top - z) / (top - low) * slices).astype(int), 0, slices - 1)
+    of_slices = [x[slice_of == k] for k in range(slices)]
     edges = np.array([np.quantile(of, [0.03, 0.97]) if len(of) else (0.0, 0.0) for of in of_slices])
     widths = edges[:, 1] - edges[:, 0]
     widest, neck = 0, slices - 1
@@ -76,13 +76,13 @@ def _ear(points: Array, head: HeadSize, side: float) -> Ear | None:
     y0, y1 = (float(q) for q in np.quantile(points[:, 1], [0.0, 1.0]))
     cell = max(y1 - y0, head.top - head.bottom) / CELLS
     shape = (int((y1 - y0) / cell) + 1, int((points[:, 2].max() - head.bottom) / cell) + 1)
-    place = (((points[:, 1] - y0) / cell).astype(int), ((points[:, 2] - head.bottom) / cell).astype(int))
+    pixel_of = (((points[:, 1] - y0) / cell).astype(int), ((points[:, 2] - head.bottom) / cell).astype(int))
     side_view = np.full(shape, -np.inf)
-    np.maximum.at(side_view, place, out)
+    np.maximum.at(side_view, pixel_of, out)
     side_view = _filled(side_view)
     # A ball that rolls along the inside of the skull does not get into an ear.
-    reach = max(int(BALL * head.width / cell), 2)
-    bend = 0.5 * cell / (BALL * head.width) * cell * np.arange(-reach, reach + 1) ** 2
+    radius = max(int(BALL * head.width / cell), 2)
+    bend = 0.5 * cell / (BALL * head.width) * cell * np.arange(-radius, radius + 1) ** 2
     skull = _window(_window(side_view, bend, np.min), -bend, np.max)
     ear = (side_view - skull > EAR_STANDS_OUT * head.width) & (side_view > FROM_MIDDLE * head.width)
     ear = _largest(ear)
@@ -104,9 +104,9 @@ def _filled(image: Array) -> Array:
 
 def _window(image: Array, bend: Array, of: Callable[..., Array]) -> Array:
     """The least or the greatest of what `bend` adds to the neighbors, front to back and then up and down."""
-    reach = len(bend) // 2
+    radius = len(bend) // 2
     for axis in (0, 1):
-        padding = [(reach, reach) if k == axis else (0, 0) for k in range(2)]
+        padding = [(radius, radius) if k == axis else (0, 0) for k in range(2)]
         windows = np.lib.stride_tricks.sliding_window_view(np.pad(image, padding, mode="edge"), len(bend), axis=axis)
         image = of(windows + bend, axis=-1)
     return image

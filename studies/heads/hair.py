@@ -138,11 +138,11 @@ def grow_lashes(part: Part, eye: Part) -> Strands:
     x = x + 0.0002 * random.standard_normal(len(x))
     roots, tips = (np.column_stack([x, *(_along(row, x, k) for k in (1, 2))]) for row in (near, far))
     tips[:, 0] += 0.25 * (x - center[0])  # they fan out
-    reach = tips - roots
+    offset = tips - roots
     length = (0.007 if upper else 0.0035) * (0.7 + 0.4 * random.random((len(x), 1)))
-    reach *= length / np.maximum(np.linalg.norm(reach, axis=1, keepdims=True), 1e-9)
+    offset *= length / np.maximum(np.linalg.norm(offset, axis=1, keepdims=True), 1e-9)
     up = np.array([0.0, 0.0, 0.0016 if upper else -0.0008])
-    points = np.stack([roots, roots + 0.55 * reach - 0.3 * up, roots + reach + up], axis=1)
+    points = np.stack([roots, roots + 0.55 * offset - 0.3 * up, roots + offset + up], axis=1)
     side = np.tile([1.0, 0.0, 0.0], (len(x), 1))
     return points.astype(np.float32), side.astype(np.float32), np.full(len(x), 0.00006, np.float32)
 

@@ -13,7 +13,7 @@ from mathutils import Matrix
 
 # isort: on
 from studies.heads import human_head, person_materials, portrait
-from studies.heads.any_head import Placed, place
+from studies.heads.any_head import Placed, place_head
 from studies.heads.human_head import HeadError
 from studies.heads.samples import Array
 
@@ -72,7 +72,7 @@ def _placed(head: bpy.types.Object, name: str, axes: Array, options: dict[str, A
     mesh.vertices.foreach_get("co", vertices.ravel())
     triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
     mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
-    return place(vertices.astype(float) @ axes, triangles, name, **options)
+    return place_head(vertices.astype(float) @ axes, triangles, name, **options)
 
 
 def _import(path: Path) -> bpy.types.Object:

@@ -86,10 +86,10 @@ def _outside(s: Samples) -> Samples:
     distance = np.linalg.norm(s.points, axis=1)
     way = s.points / distance[:, None]
     cell = np.round(way * 12.0).astype(int) @ np.array([1, 100, 10_000])
-    _, place = np.unique(cell, return_inverse=True)
-    farthest = np.zeros(place.max() + 1)
-    np.maximum.at(farthest, place, distance)
-    kept = distance > 0.85 * farthest[place]
+    _, direction_of = np.unique(cell, return_inverse=True)
+    farthest = np.zeros(direction_of.max() + 1)
+    np.maximum.at(farthest, direction_of, distance)
+    kept = distance > 0.85 * farthest[direction_of]
     return Samples(s.points[kept], s.normals[kept], s.border)
 
 

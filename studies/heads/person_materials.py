@@ -80,10 +80,10 @@ class Nodes:
 
 def skin(masks: dict[str, Path]) -> bpy.types.Material:
     make = Nodes("skin")
-    place = make.add("TexCoord").outputs["Object"]
+    position = make.add("TexCoord").outputs["Object"]
 
     def noise(per_m: float, detail: float) -> bpy.types.NodeSocket:
-        return make.add("TexNoise", Vector=place, Scale=per_m, Detail=detail).outputs[0]
+        return make.add("TexNoise", Vector=position, Scale=per_m, Detail=detail).outputs[0]
 
     # Blood is unevenly spread, and melanin gathers in spots.
     blotches = make.ramp(noise(45.0, 3.0), 0.35, 0.75)
@@ -99,7 +99,7 @@ def skin(masks: dict[str, Path]) -> bpy.types.Material:
     color = make.mix(make.math("MULTIPLY", make.attribute("hair").outputs["Fac"], 0.8), color, (0.12, 0.075, 0.055))
     make.put(color, make.surface.inputs["Base Color"])
 
-    pores = make.add("TexVoronoi", Vector=place, Scale=1300.0).outputs["Distance"]
+    pores = make.add("TexVoronoi", Vector=position, Scale=1300.0).outputs["Distance"]
     height = make.math("ADD", make.math("MULTIPLY", pores, 0.6), noise(900.0, 4.0))
     bump = make.add("Bump", Strength=0.35, Distance=0.00018, Height=height)
     make.put(bump.outputs["Normal"], make.surface.inputs["Normal"])

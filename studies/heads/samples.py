@@ -48,9 +48,11 @@ def sample(vertices: Array, triangles: NDArray[np.integer], count: int = COUNT) 
 
 
 def _border(vertices: Array, triangles: NDArray[np.integer]) -> Array:
-    """Middles of edges with one triangle. Vertices at one place are one: seams of a UV map are no border."""
-    _, place = np.unique(np.round(vertices / (1e-6 * np.ptp(vertices, axis=0).max())), axis=0, return_inverse=True)
-    welded = place.ravel()[triangles]
+    """Middles of edges with one triangle. Vertices at one position are one: seams of a UV map are no border."""
+    _, position_of = np.unique(
+        np.round(vertices / (1e-6 * np.ptp(vertices, axis=0).max())), axis=0, return_inverse=True
+    )
+    welded = position_of.ravel()[triangles]
     edges = np.sort(np.concatenate([welded[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
     original = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
     _, first, times = np.unique(edges, axis=0, return_index=True, return_counts=True)

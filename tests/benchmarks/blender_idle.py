@@ -73,7 +73,7 @@ def nothing(_scene: bpy.types.Scene, _depsgraph: bpy.types.Depsgraph) -> None:
 def measure(build: Callable[[], None], skin: bool) -> dict[str, float]:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     build()
-    link(bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT")))
+    link(bpy.data.objects.new("Light", bpy.data.lights.new("Light", "POINT")))
     if skin:
         sb.make_skin(quad("Skin"), thickness=[1.0] * 4)
     empty = link(bpy.data.objects.new("Empty", None))
@@ -102,8 +102,8 @@ def measure(build: Callable[[], None], skin: bool) -> dict[str, float]:
 def other_edits() -> dict[str, float]:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     objects()
-    light = bpy.data.lights.new("Lamp", "POINT")
-    link(bpy.data.objects.new("Lamp", light))
+    light = bpy.data.lights.new("Light", "POINT")
+    link(bpy.data.objects.new("Light", light))
     sb.make_skin(quad("Skin"), thickness=[1.0] * 4)
     plain, material = bpy.data.objects["Object 3"], bpy.data.materials.new("Plain")
     if bpy.app.version < (5, 0, 0):

@@ -9,7 +9,7 @@ import trimesh
 from made_head import head
 
 from studies.heads import preview
-from studies.heads.any_head import place
+from studies.heads.any_head import place_head
 from studies.heads.human_head import HeadError
 from studies.heads.orientation import AXES, Orientation, guess, normalized
 from studies.heads.samples import sample
@@ -34,31 +34,31 @@ def test_a_head_is_seen_for_what_it_is_any_way_it_lies():
 
 def test_what_is_given_is_kept_and_the_rest_guessed():
     vertices, triangles = head()
-    placed = place(as_file(vertices, Orientation("-X", "+Z")), triangles, "scan.ply", up="-x")
+    placed = place_head(as_file(vertices, Orientation("-X", "+Z")), triangles, "scan.ply", up="-x")
     assert placed.orientation == Orientation("-X", "+Z")
-    both = place(vertices, triangles, "scan.ply", up="y", facing="x")
+    both = place_head(vertices, triangles, "scan.ply", up="y", facing="x")
     assert both.orientation == Orientation("+Y", "+X")
 
 
 def test_a_gltf_file_is_taken_as_its_standard_says_and_doubts_are_told():
     vertices, triangles = head()
-    right = place(as_file(vertices, Orientation("+Y", "+Z")), triangles, "head.glb")
+    right = place_head(as_file(vertices, Orientation("+Y", "+Z")), triangles, "head.glb")
     assert right.orientation == Orientation("+Y", "+Z")
     assert not any("looks as if" in sentence for sentence in right.said)
-    wrong = place(vertices, triangles, "head.glb")
+    wrong = place_head(vertices, triangles, "head.glb")
     assert wrong.orientation == Orientation("+Y", "+Z")
     assert any("add --up=+Z --facing=-Y" in sentence for sentence in wrong.said)
 
 
 def test_ears_are_found_and_missing_ones_told():
-    both = place(*head(), "head.ply")
+    both = place_head(*head(), "head.ply")
     assert {ear.side for ear in both.ears} == {1.0, -1.0}
     for ear in both.ears:
         assert ear.center == pytest.approx([0.088 * ear.side, 0.01, 0.045], abs=0.012)
-    one = place(*head(ears=["right"]), "head.ply", up="z", facing="-y")
+    one = place_head(*head(ears=["right"]), "head.ply", up="z", facing="-y")
     assert [ear.side for ear in one.ears] == [-1.0]
     assert any("only the right ear" in sentence for sentence in one.said)
-    none = place(*head(ears=[]), "head.ply")
+    none = place_head(*head(ears=[]), "head.ply")
     assert none.ears == []
     assert any("no ear was found" in sentence and "--ear" in sentence for sentence in none.said)
 
@@ -66,7 +66,7 @@ def test_ears_are_found_and_missing_ones_told():
 def test_an_ear_that_is_given_is_taken():
     vertices, triangles = head(ears=[])
     way = Orientation("+Y", "+Z")
-    placed = place(1000.0 * as_file(vertices, way), triangles, "head.obj", ear=(-80.0, 45.0, -10.0))
+    placed = place_head(1000.0 * as_file(vertices, way), triangles, "head.obj", ear=(-80.0, 45.0, -10.0))
     assert placed.ears[0].center == pytest.approx([-0.080, 0.010, 0.045])
     assert placed.ears[0].side == -1.0
 
@@ -74,14 +74,14 @@ def test_an_ear_that_is_given_is_taken():
 @pytest.mark.parametrize(("scale", "unit"), [(1.0, 1000.0), (1000.0, 1.0), (100.0, 10.0), (10.0, 100.0)])
 def test_the_unit_is_the_one_that_makes_it_a_head(scale, unit):
     vertices, triangles = head()
-    assert place(scale * vertices, triangles, "head.ply").unit_mm == unit
+    assert place_head(scale * vertices, triangles, "head.ply").unit_mm == unit
 
 
 @pytest.mark.parametrize(("scale", "size"), [(1000.0, "152 m wide"), (0.01, "1.52 mm wide")])
 def test_a_head_of_another_size_is_told_with_the_remedy(scale, size):
     vertices, triangles = head()
     with pytest.raises(HeadError, match=r"--unit 1000 the head would be .* wide.*give --unit ") as raised:
-        place(scale * vertices, triangles, "head.ply", unit_mm=1000.0)
+        place_head(scale * vertices, triangles, "head.ply", unit_mm=1000.0)
     number = float(str(raised.value).split("the head would be ")[1].split()[0])
     assert number == pytest.approx(float(size.split()[0]), rel=0.15)
     assert size.split()[1] in str(raised.value)
@@ -91,14 +91,14 @@ def test_options_that_cannot_be_are_told():
     vertices, triangles = head()
     for options in ({"up": "w"}, {"up": "y", "facing": "-Y"}, {"unit_mm": -1.0}, {"unit_mm": float("nan")}):
         with pytest.raises(HeadError, match="--"):
-            place(vertices, triangles, "head.ply", **options)
+            place_head(vertices, triangles, "head.ply", **options)
     with pytest.raises(HeadError, match="no surface"):
-        place(np.zeros((3, 3)), np.array([[0, 1, 2]]), "head.ply")
+        place_head(np.zeros((3, 3)), np.array([[0, 1, 2]]), "head.ply")
     assert normalized(" -z ") == "-Z"
 
 
 def test_the_preview_shows_the_head_and_marks_its_ears(tmp_path):
-    preview.draw(place(*head(), "head.ply"), tmp_path / "preview.png")
+    preview.draw(place_head(*head(), "head.ply"), tmp_path / "preview.png")
     image = plt.imread(tmp_path / "preview.png")
     height, width, _ = image.shape
     assert width == 2 * height
@@ -115,4 +115,4 @@ def test_the_scan_is_found_however_it_is_turned():
     upright = samples.turned(Orientation("+Y", "+Z").rotation())
     for way in ALL_WAYS[::3]:
         assert guess(upright.turned(way.rotation().T)).orientation == way
-    assert len(place(np.array(scan.vertices), np.array(scan.faces), "scan.obj").ears) == 2
+    assert len(place_head(np.array(scan.vertices), np.array(scan.faces), "scan.obj").ears) == 2

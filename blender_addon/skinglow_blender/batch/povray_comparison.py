@@ -26,7 +26,7 @@ from .rigs import Rig, light_objects, lit_by, make_ready
 MODES = ("existing", "paper", "physical")
 ALL_LIGHTS = "all lights"
 #: The narrowest filter that Cycles takes, in pixels. Each pixel is one ray through its center, the same in both
-#: programs: of glow in a line thinner than a pixel, several samples at places of their own see different parts.
+#: programs: of glow in a line thinner than a pixel, several samples at positions of their own see different parts.
 FILTER_WIDTH = 0.01
 
 

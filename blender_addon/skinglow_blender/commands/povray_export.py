@@ -16,7 +16,7 @@ from ..read.scene_lights import make_light
 from ..read.scene_reading import SceneReading, Skin, read_scene
 from ..table.skin_tables import base_lut, compute_table, lights_of, world_irradiance
 from .povray_pictures import pictures_of
-from .povray_scene import camera_arguments, mesh_arguments, places_of, tiles_of
+from .povray_scene import camera_arguments, mesh_arguments, tiles_of, transforms_of
 from .povray_writing import SceneFiles, float_image, staged
 
 LUT_FILE, TILES_FILE = "lut.exr", "tiles.exr"
@@ -140,8 +140,8 @@ def _write_frame(
     by_thickness = tiles is None
     pictures = pictures_of(obj, skin, files, frame, surface=what.surface, by_thickness=by_thickness, varies=varies)
     notes = list(pictures.notes)
-    places = places_of(depsgraph, original)
-    arguments, tiles = mesh_arguments(obj, skin, base, tiles, places, table, pictures)
+    transforms = transforms_of(depsgraph, original)
+    arguments, tiles = mesh_arguments(obj, skin, base, tiles, transforms, table, pictures)
     arguments |= camera_arguments(depsgraph) | pictures.arguments
     # The macros alone look up a picture of thickness.
     computed = what.compute_lut or "thickness_image" in arguments
@@ -154,7 +154,7 @@ def _write_frame(
         )
     if skin.mode == "PHYSICAL" and skin.weights != "OBJECT" and tiles is None:
         notes.append(f"'{skin.name}': its light varies over the surface in Blender; POV-Ray shows it per object")
-    if varies and len(places) > 1:
+    if varies and len(transforms) > 1:
         notes.append(f"'{skin.name}': its instances show the light of the first")
     if tiles is not None:
         # With a dark row for all that shows no light.

@@ -49,7 +49,7 @@ def pictures_of(
 
     surface       whether the surface is exported
     by_thickness  whether the glow depends on thickness, which may be a picture
-    varies        whether it depends on the place too, so that the picture cannot be looked up
+    varies        whether it depends on the position too, so that the picture cannot be looked up
     """
     found = _surface(obj, files.folder) if surface else Pictures({}, "", [])
     arguments, uv_map, notes = found
@@ -146,7 +146,7 @@ def _thickness(
         raise _NotExportedError(f"is the picture '{image.name}', whose file is missing")
     mm = read_pixels(image)[:, :, :3] @ LUMINANCE.astype(np.float32)
     if (mm < 0.0).any():
-        raise _NotExportedError(f"is the picture '{image.name}', which leaves it to the measured one in places")
+        raise _NotExportedError(f"is the picture '{image.name}', which leaves it to the measured one in parts")
     scale = factor * scale_since_measured(obj.data, skin.world_size)
     name = files.write(THICKNESS_FILE, float_image(np.repeat(mm[..., None], 3, axis=2), files.folder), frame)
     return {"thickness_image": name, "thickness_range": (0.0, scale)}, own_map

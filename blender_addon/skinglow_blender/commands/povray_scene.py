@@ -24,7 +24,7 @@ from .povray_pictures import Pictures, glowing_slots
 CAMERAS = ("PERSP", "ORTHO")
 
 
-def places_of(depsgraph: bpy.types.Depsgraph, original: bpy.types.Object) -> list[np.ndarray]:
+def transforms_of(depsgraph: bpy.types.Depsgraph, original: bpy.types.Object) -> list[np.ndarray]:
     """The world matrices at which an object is shown: its own, unless it is hidden, and those of its instances."""
     return [
         np.array(each.matrix_world, np.float64)
@@ -48,11 +48,11 @@ def mesh_arguments(
     skin: Skin,
     base: Any,  # noqa: ANN401
     tiles: np.ndarray | None,
-    places: list[np.ndarray],
+    transforms: list[np.ndarray],
     table: Table | None,
     pictures: Pictures,
 ) -> tuple[dict[str, Any], np.ndarray | None]:
-    """The evaluated mesh in world space, at all of its places, with the coordinates of its light and pictures.
+    """The evaluated mesh and its instances in world space, with the coordinates of its light and pictures.
 
     Also the tiles that it shows: those given, or of light that the table works out at each pixel.
     """
@@ -67,11 +67,11 @@ def mesh_arguments(
         mesh.loop_triangles.foreach_get("loops", corners)
         smooth = np.empty(len(mesh.loop_triangles), bool)
         mesh.loop_triangles.foreach_get("use_smooth", smooth)
-        matrix = places[0] if places else np.array(obj.matrix_world, np.float64)
+        matrix = transforms[0] if transforms else np.array(obj.matrix_world, np.float64)
         found = {
             "vertices": points.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3],
             "triangles": triangles.reshape(-1, 3),
-            "instances": [place @ np.linalg.inv(matrix) for place in places[1:]],
+            "instances": [each @ np.linalg.inv(matrix) for each in transforms[1:]],
         }
         if tiles is not None:
             found["glow_uv"] = glow_uv(_texels(obj, mesh, corners.reshape(-1, 3)), _unlit(obj, mesh), tiles.shape)

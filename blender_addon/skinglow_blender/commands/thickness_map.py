@@ -93,7 +93,7 @@ def thickness_from_image(obj: bpy.types.Object, image: bpy.types.Image, white_mm
     corners = np.empty(len(mesh.loops), np.int32)
     mesh.loops.foreach_get("vertex_index", corners)
     sampled = core().sample_image(read_pixels(image)[:, :, 0], uv) * white
-    # A vertex on a seam has several places in the image.
+    # A vertex on a seam has several points in the image.
     count = np.bincount(corners, minlength=len(mesh.vertices))
     total = np.bincount(corners, sampled, minlength=len(mesh.vertices))
     if (total < 0.0).any():

@@ -33,7 +33,7 @@ constexpr float no_light = -1;
 constexpr std::size_t block = 256;
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// Ten bits, each two places from the next.
+/// Spreads ten bits: two zeros come between each and the next.
 std::uint32_t spread_bits(std::uint32_t x) {
     x = (x | x << 16U) & 0x030000FFU;
     x = (x | x << 8U) & 0x0300F00FU;
@@ -50,7 +50,7 @@ VertexLight::VertexLight(const FleshSurface& surface, std::span<const glm::dvec3
     for (std::uint32_t v = 0; v < wanted.size(); ++v) {
         if (wanted[v] != 0) wanted_.push_back(v);
     }
-    sort_by_place();
+    sort_by_position();
     receivers_.reserve(wanted_.size());
     for (const std::uint32_t v : wanted_) receivers_.push_back(receiver_of(v));
     for (const BodyTriangle& t : surface.body().triangles()) {
@@ -61,21 +61,21 @@ VertexLight::VertexLight(const FleshSurface& surface, std::span<const glm::dvec3
 }
 
 /// Neighbors after each other, along the Z-order curve: their rays to a light are alike, and packets of them fast.
-void VertexLight::sort_by_place() {
-    std::vector<glm::vec3> places;
+void VertexLight::sort_by_position() {
+    std::vector<glm::vec3> positions;
     glm::vec3 low(std::numeric_limits<float>::max());
     glm::vec3 high(std::numeric_limits<float>::lowest());
     for (const std::uint32_t v : wanted_) {
-        places.push_back(sites_.sites()[sites_.site_of()[v]].position);
-        low = glm::min(low, places.back());
-        high = glm::max(high, places.back());
+        positions.push_back(sites_.sites()[sites_.site_of()[v]].position);
+        low = glm::min(low, positions.back());
+        high = glm::max(high, positions.back());
     }
     constexpr float cells = 1023;  // 10 bits an axis
     const glm::vec3 scale = cells / glm::max(high - low, glm::vec3(std::numeric_limits<float>::min()));
     std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
     order.reserve(wanted_.size());
     for (std::size_t i = 0; i < wanted_.size(); ++i) {
-        const glm::uvec3 cell(glm::clamp((places[i] - low) * scale, 0.0F, cells));
+        const glm::uvec3 cell(glm::clamp((positions[i] - low) * scale, 0.0F, cells));
         order.emplace_back(spread_bits(cell.x) | spread_bits(cell.y) << 1U | spread_bits(cell.z) << 2U,
                            wanted_[i]);
     }

@@ -56,7 +56,7 @@ class VertexLight {
         glm::vec3 origin;   ///< where rays begin, mm about the body's center
         glm::dvec3 normal;  ///< unit; 0: receives nothing
     };
-    void sort_by_place();
+    void sort_by_position();
     Receiver receiver_of(std::uint32_t vertex) const;
     float to_mm(double distance) const;
     bool passes_occluders(const Receiver& receiver, const glm::dvec3& direction, double distance) const;

@@ -134,19 +134,19 @@ def check_spots_of_uneven_scale_are_noted(_work):
 
 
 def check_what_only_eevee_follows_is_noted(_work):
-    lamp = add_light("Lamp")
+    light = add_light("Light")
     obj = link(bpy.data.objects.new("Skin", bpy.data.meshes.new("Skin")))
     obj.data.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
     sb.make_skin(obj, thickness=[1.0] * 3)
 
     def notes():
-        return [row["note"] for row in sb.light_report(obj, depsgraph()) if row["name"] == "Lamp"]
+        return [row["note"] for row in sb.light_report(obj, depsgraph()) if row["name"] == "Light"]
 
     bpy.context.scene.render.engine = "BLENDER_EEVEE_NEXT" if (4, 2) <= bpy.app.version < (5, 0) else "BLENDER_EEVEE"
     assert notes() == [""]
-    lamp.data.use_custom_distance = True
+    light.data.use_custom_distance = True
     assert "EEVEE alone" in notes()[0]
-    lamp.data.use_custom_distance, lamp.data.diffuse_factor = False, 0.5
+    light.data.use_custom_distance, light.data.diffuse_factor = False, 0.5
     assert "EEVEE alone" in notes()[0]
     bpy.context.scene.render.engine = "CYCLES"
     assert notes() == [""]

@@ -255,7 +255,7 @@ def color_of(obj):
     return next(node for node in nodes if node.bl_idname == "ShaderNodeBsdfDiffuse").inputs["Color"]
 
 
-#: Kind, settings, and the difference allowed, of the brightest place: what docs/povray.md says.
+#: Kind, settings, and the difference allowed, of the brightest point: what docs/povray.md says.
 WHITE_PLANE = {
     "point": ("POINT", dict(shadow_soft_size=0.0), 0.005),
     "ball": ("POINT", dict(shadow_soft_size=0.3), 0.005),
@@ -278,7 +278,7 @@ def check_white_plane_under_each_kind_of_light(work):
         light.rotation_euler = (0.2, 0.1, 0.0)
         for key, value in settings.items():
             setattr(light.data, key, value)
-        # A light with an extent is a random place of it in each sample.
+        # A light with an extent is a random point of it in each sample.
         random = name in ("ball", "area")
         scene.cycles.samples = 256 if random else 1
         scene.render.filepath = str(work / f"{name}.exr")

@@ -112,7 +112,7 @@ def check_comparison(work):
     add_light("Key", location=(0.5, 0.0, 2.0))
     add_light("Rim", location=(-1.0, 0.5, 1.0)).data.color = (0.1, 0.4, 1.0)
     obj = suzanne()
-    # Thin in spots smaller than a pixel, where samples at places of their own would see different light.
+    # Thin in spots smaller than a pixel, where samples at positions of their own would see different light.
     thin = np.arange(len(obj.data.vertices)) % 7 == 0
     sb.make_skin(obj, thickness=np.where(thin, 0.05, 12.0), mode="paper", strength=20.0)
     bystander = patch("Bystander")

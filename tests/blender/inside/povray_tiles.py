@@ -75,8 +75,8 @@ def check_through_the_shape(work):
 
 def check_light_per_pixel(work):
     """A mirrored ear's lobe with a sharp edge, lit by lights that are close: at most 1/255 of the brightest."""
-    for name, kind, place in (("Near", "POINT", (0.5, 0.3, -1.2)), ("Cone", "SPOT", (-0.8, 0.2, -1.6))):
-        light = add_light(name, kind, energy=40.0, color=(1.0, 0.5, 0.2), location=place)
+    for name, kind, position in (("Near", "POINT", (0.5, 0.3, -1.2)), ("Cone", "SPOT", (-0.8, 0.2, -1.6))):
+        light = add_light(name, kind, energy=40.0, color=(1.0, 0.5, 0.2), location=position)
         light.rotation_euler = (3.0, -0.3, 0.0)
     obj = lobe(material=black_material())
     centers = np.array([polygon.center.x for polygon in obj.data.polygons])

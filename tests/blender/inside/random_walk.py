@@ -52,7 +52,7 @@ class Walk(ShapeEdits):
     def add_skin(self):
         if len(self.skins()) < 6:
             material = self.pick([None, *self.materials()])
-            sb.make_skin(patch("Patch", location=self.place(), material=material), thickness=THIN, mode="paper")
+            sb.make_skin(patch("Patch", location=self.position(), material=material), thickness=THIN, mode="paper")
 
     def materials(self):
         return [m for m in bpy.data.materials if m.users and not m.library]
@@ -84,7 +84,7 @@ class Walk(ShapeEdits):
             for obj in self.from_library(
                 False, self.random.choice((["Library skin"], ["Library lamp", "Library skin"]))
             ):
-                obj.location = self.place()
+                obj.location = self.position()
 
     def link_library(self):
         if len(self.skins()) < 6:
@@ -98,13 +98,13 @@ class Walk(ShapeEdits):
     def move_override(self):
         obj = self.pick([o for o in bpy.context.scene.objects if o.override_library])
         if obj is not None:
-            obj.location = self.place()
+            obj.location = self.position()
 
     def duplicate_skin(self):
         obj = self.pick(self.own_skins())
         if obj is not None and len(self.skins()) < 6:
             copy = link(obj.copy())
-            copy.location = self.place()
+            copy.location = self.position()
             if self.random.random() < 0.5:
                 copy.data = copy.data.copy()
 
@@ -122,7 +122,7 @@ class Walk(ShapeEdits):
         obj = self.pick(self.own_skins())
         if obj is None:
             return
-        obj.location, obj.rotation_euler = self.place(), self.place()
+        obj.location, obj.rotation_euler = self.position(), self.position()
         obj.scale = [self.random.choice((0.5, 1.0, -1.0, 2.0))] * 3
 
     def table_size(self):

@@ -104,15 +104,15 @@ def fresh(
     """
     matrix = obj.evaluated_get(graph).matrix_world if matrix is None else matrix
     vertices, triangles, texels = corners(obj, graph, matrix)
-    place, rotation, _scale = matrix.decompose()
+    position, rotation, _scale = matrix.decompose()
     # Far from the world's origin single precision would be what differs.
-    to_world = np.array(Matrix.Translation(place) @ rotation.to_matrix().to_4x4(), float)
+    to_world = np.array(Matrix.Translation(position) @ rotation.to_matrix().to_4x4(), float)
     if as_it_stands:
         to_world[:3, :3] = np.eye(3)
     vertices = (vertices - to_world[:3, 3]) @ to_world[:3, :3]
     to_body, found = np.linalg.inv(to_world), list(visible_lights(graph, dark=True))
-    lights = [physical_light(light.data, to_body @ place) for light, place in found]
-    shadowless = [i for i, (light, _place) in enumerate(found) if not light.data.use_shadow]
+    lights = [physical_light(light.data, to_body @ at) for light, at in found]
+    shadowless = [i for i, (light, _at) in enumerate(found) if not light.data.use_shadow]
     rows = int(obj.data["skinglow_tiles"]["rows"])
     targets = sg.TileTargets(vertices, triangles, texels, rows, unit_mm=1.0)
     where = {"points": targets.points, "normals": targets.normals}

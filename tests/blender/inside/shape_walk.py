@@ -23,17 +23,17 @@ class ShapeWalk(SceneEdits):
         self.undoable = 0
         self.through = 0
 
-    def place(self):
+    def position(self):
         return [self.random.uniform(-25.0, 25.0) for _ in range(3)]
 
     def skin(self):
         return self.pick(self.own_skins())
 
     def sun(self):
-        sun(energy=self.random.uniform(0.5, 5.0), direction=self.place())
+        sun(energy=self.random.uniform(0.5, 5.0), direction=self.position())
 
     def move_skin(self):
-        self.skin().location, self.skin().rotation_euler = self.place(), self.place()
+        self.skin().location, self.skin().rotation_euler = self.position(), self.position()
 
     def scale(self):
         self.skin().scale = [self.random.choice((-1.0, 0.8, 1.0, 1.3)) for _ in range(3)]
@@ -64,7 +64,7 @@ class ShapeWalk(SceneEdits):
     def duplicate_skin(self):
         if len(self.skins()) < 2:
             copy = link(self.skin().copy())
-            copy.location = self.place()
+            copy.location = self.position()
             if self.random.random() < 0.5:
                 copy.data = copy.data.copy()
 

@@ -37,7 +37,7 @@ class SceneEdits:
     def pick(self, things):
         return self.random.choice(things) if things else None
 
-    def place(self):
+    def position(self):
         return [self.random.uniform(-3.0, 3.0) for _ in range(3)]
 
     def color(self):
@@ -50,7 +50,7 @@ class SceneEdits:
     def new_light(self):
         if len(self.lights()) < 24:
             kind = self.random.choice(("POINT", "SUN", "SPOT", "AREA"))
-            add_light("Lamp", kind, self.color(), self.random.uniform(0.1, 50), self.place(), self.collection())
+            add_light("Lamp", kind, self.color(), self.random.uniform(0.1, 50), self.position(), self.collection())
 
     def delete_light(self):
         obj = self.pick(self.lights())
@@ -61,7 +61,7 @@ class SceneEdits:
         obj = self.pick(self.lights())
         if obj is not None and len(self.lights()) < 24:
             copy = link(obj.copy(), self.collection())
-            copy.location = self.place()
+            copy.location = self.position()
             if self.random.random() < 0.5:
                 copy.data = copy.data.copy()
 
@@ -88,7 +88,7 @@ class SceneEdits:
     def move_light(self):
         obj = self.pick(self.lights())
         if obj is not None:
-            obj.location = self.place()
+            obj.location = self.position()
 
     def hide_light(self):
         obj = self.pick(self.lights())
@@ -164,14 +164,14 @@ class SceneEdits:
     def instance(self):
         if len(self.objects("EMPTY")) < 6:
             empty = link(bpy.data.objects.new("Empty", None))
-            empty.location = self.place()
+            empty.location = self.position()
             if self.random.random() < 0.7:
                 empty.instance_type, empty.instance_collection = "COLLECTION", bpy.data.collections["Store"]
 
     def move_empty(self):
         obj = self.pick(self.objects("EMPTY"))
         if obj is not None:
-            obj.location = self.place()
+            obj.location = self.position()
             obj.scale = [self.random.choice((1.0, 2.0))] * 3
 
     def delete_empty(self):

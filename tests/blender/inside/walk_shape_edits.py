@@ -18,7 +18,7 @@ class ShapeEdits(MeshEdits):
         """A closed skin of thin flesh, lit through its shape."""
         if len(self.skins()) < 6:
             obj = thin_body("Body", self.pick([None, *self.materials()]))
-            obj.location = self.place()
+            obj.location = self.position()
             shape_skin(obj)
 
     def mode(self):
