@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from .. import blender_version
+from ..errors import core
 from ..read import working_space
 from ..read.measured_size import scale_since_measured
 from ..read.node_values import linked_node
@@ -19,8 +20,6 @@ from .povray_writing import SceneFiles, float_image
 THICKNESS_FILE = "thickness.exr"
 #: Shaders whose color POV-Ray shows as a matt surface, and the name of its input.
 BASE_COLORS = {"ShaderNodeBsdfPrincipled": "Base Color", "ShaderNodeBsdfDiffuse": "Color"}
-#: Of a color that is used as a number: linear Rec.709.
-LUMINANCE = np.array((0.2126, 0.7152, 0.0722))
 
 
 class Pictures(NamedTuple):
@@ -144,9 +143,10 @@ def _thickness(
         len(image.pixels)  # reads the file
     if not image.has_data:
         raise _NotExportedError(f"is the picture '{image.name}', whose file is missing")
-    mm = read_pixels(image)[:, :, :3] @ LUMINANCE.astype(np.float32)
-    if (mm < 0.0).any():
+    colors = read_pixels(image)[:, :, :3]
+    if (colors < 0.0).any():
         raise _NotExportedError(f"is the picture '{image.name}', which leaves it to the measured one in parts")
+    mm = core().luminance(colors)  # as Blender uses a color as a number
     scale = factor * scale_since_measured(obj.data, skin.world_size)
     name = files.write(THICKNESS_FILE, float_image(np.repeat(mm[..., None], 3, axis=2), files.folder), frame)
     return {"thickness_image": name, "thickness_range": (0.0, scale)}, own_map
