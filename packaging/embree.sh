@@ -4,8 +4,9 @@ embree_version=3.13.5
 embree_source="embree_$embree_version+dfsg.orig.tar.xz"
 embree_sha256=1b7c5b6144230ad81b92ece884a2017fbbb433bf5416a6fca9257e0109501c63
 
-# Skinglow traces single rays against triangles, with occlusion filters, which Embree ignores without a word where they are not
-# compiled in. SSE 4.2 is the one instruction set of all machines that Blender runs on.
+# Skinglow traces rays against triangles, with occlusion filters, which Embree ignores without a word where they are not compiled in.
+# SSE 4.2 is the one instruction set of all machines that Blender runs on. Shadow rays go one by one with it: packets of four were no
+# faster (16 lights on two ears: 163 ms, singly 148 to 167), and made the packages 0.35 MB larger.
 embree_options=(-DEMBREE_STATIC_LIB=ON -DEMBREE_TASKING_SYSTEM=INTERNAL -DEMBREE_IGNORE_CMAKE_CXX_FLAGS=OFF -DEMBREE_MAX_ISA=NONE
     -DEMBREE_ISA_SSE42=ON -DEMBREE_FILTER_FUNCTION=ON)
 for name in ISA_{SSE2,AVX,AVX2,AVX512} GEOMETRY_{QUAD,CURVE,SUBDIVISION,USER,INSTANCE,GRID,POINT} \
