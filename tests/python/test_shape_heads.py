@@ -60,19 +60,19 @@ def errors(name, cell_mm):
     return 100.0 * np.append(each, together)
 
 
-# What was asked for, but for the smooth surface (8 %) and the blue of dark skin in large cells (35 %):
-# docs/shape.md says why. Blue of dark skin is a hundredth of its red.
+# The aims: 6, 10, 8, 8 and 12 % in cells of 0.8 mm, 5, 6, 6, 8 and 10 % in those of 0.5, and 35 % in blue. Missed with
+# the smooth surface, and in the blue of dark skin (a hundredth of its red) in large cells: docs/shape.md says why.
 @pytest.mark.parametrize(
     ("name", "cell_mm", "together", "blue"),
     [
         ("lps-a", 0.8, 6.0, 35.0),
-        ("lps-c", 0.8, 10.0, 35.0),
-        ("mh-a", 0.8, 8.0, 35.0),
+        ("lps-c", 0.8, 8.0, 35.0),
+        ("mh-a", 0.8, 5.5, 20.0),
         ("lps-a-sdiff", 0.8, 10.5, 35.0),
-        ("lps-a-dark", 0.8, 12.0, 60.0),
-        ("lps-a", 0.5, 5.0, 35.0),
-        ("lps-c", 0.5, 6.0, 35.0),
-        ("mh-a", 0.5, 6.0, 35.0),
+        ("lps-a-dark", 0.8, 11.0, 60.0),
+        ("lps-a", 0.5, 5.0, 20.0),
+        ("lps-c", 0.5, 6.0, 20.0),
+        ("mh-a", 0.5, 6.0, 15.0),
         ("lps-a-sdiff", 0.5, 10.5, 35.0),
         ("lps-a-dark", 0.5, 10.0, 35.0),
     ],

@@ -1,4 +1,4 @@
-"""Hundreds of random edits, after each of which every skin's lookup is compared with a fresh computation.
+"""A thousand random edits, after each of which every skin's lookup is compared with a fresh computation.
 
 The seed is printed and is part of every failure; SKINGLOW_SEED repeats a walk, SKINGLOW_STEPS changes its length.
 """
@@ -244,7 +244,7 @@ def write_library(path):
 
 def check_random_walk(work):
     seed = int(os.environ.get("SKINGLOW_SEED", "20260704"))
-    steps = int(os.environ.get("SKINGLOW_STEPS", "500"))
+    steps = int(os.environ.get("SKINGLOW_STEPS", "1000"))
     print(f"random walk: SKINGLOW_SEED={seed}, {steps} steps", flush=True)
     write_library(work / LIBRARY)
     scenes = [bpy.context.scene, bpy.data.scenes.new("Other")]
