@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from studies import in_blender
+from studies.display import virtual_display
 from studies.paths import ENVIRONMENTS
 from studies.progress import Progress, StudyError
 
@@ -56,15 +57,17 @@ class Host:
             file.flush()
             options = ["-b", "--factory-startup", "-noaudio", "--python-exit-code", "3", "-P"]
             start = [self.program, *options] if self.is_full_program else [self.program]
-            if display and "DISPLAY" not in os.environ:
-                if shutil.which("xvfb-run") is None:
-                    raise StudyError("EEVEE needs a display: install xvfb and xauth (scripts/setup --tests does)")
-                start = ["xvfb-run", "-a", *start]
-            return self._follow([*start, in_blender.__file__, "--", module, file.name], progress)
+            command = [*start, in_blender.__file__, "--", module, file.name]
+            if not display or "DISPLAY" in os.environ:
+                return self._follow(command, {**os.environ}, progress)
+            with virtual_display() as name:
+                return self._follow(command, {**os.environ, "DISPLAY": name}, progress)
 
-    def _follow(self, command: list[str], progress: Progress) -> dict[str, Any]:
+    def _follow(self, command: list[str], environment: dict[str, str], progress: Progress) -> dict[str, Any]:
         result: dict[str, Any] | None = None
-        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as running:
+        with subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment
+        ) as running:
             assert running.stdout is not None
             for line in running.stdout:
                 if not line.startswith(in_blender.MARK):

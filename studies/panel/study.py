@@ -14,6 +14,7 @@ import tempfile
 from pathlib import Path
 
 from studies.demo.head_source import find
+from studies.display import virtual_display
 from studies.paths import IMAGES, PROJECT, SITE
 from studies.progress import Progress, StudyError
 
@@ -30,12 +31,11 @@ def main(arguments: list[str]) -> None:
     options = parser.parse_args(arguments)
     head = find(None, None, Progress(PROJECT / "build" / "panel.log"))
     pictures = [options.folder.resolve() / name for name in PICTURES]
-    with tempfile.TemporaryDirectory() as profile:
-        command = ["xvfb-run", "-a", "-s", "-screen 0 {}x{}x24".format(*SCREEN), *shlex.split(options.blender)]
-        command += ["--factory-startup"]
+    with tempfile.TemporaryDirectory() as profile, virtual_display(*SCREEN) as display:
+        command = [*shlex.split(options.blender), "--factory-startup"]
         command += ["--enable-event-simulate", "--window-geometry", "0", "0", *map(str, SCREEN)]
         command += ["-P", Path(__file__).with_name("window.py"), "--", head.mesh, SITE, *pictures]
-        environment = {**os.environ, "BLENDER_USER_RESOURCES": profile}
+        environment = {**os.environ, "BLENDER_USER_RESOURCES": profile, "DISPLAY": display}
         done = subprocess.run(
             command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, check=False
         )

@@ -1,7 +1,7 @@
 """Makes the first picture of docs/blender.md: a light carried round the ear in six frames, through the shape in EEVEE,
 and by the random walk of Cycles in the same medium, with the time of each frame.
 
-EEVEE needs a full Blender and a display; where there is none, xvfb-run makes one.
+EEVEE needs a full Blender and a display; where there is none, Xvfb makes one.
 """
 
 from __future__ import annotations

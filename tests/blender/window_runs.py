@@ -2,7 +2,6 @@
 
 import json
 import os
-import shutil
 import subprocess
 from pathlib import Path
 
@@ -10,8 +9,12 @@ import matplotlib.image
 import numpy as np
 from hosts import ADDON_FOLDER, HERE, host_named
 
+from studies.display import virtual_display
+
 #: Seconds for a whole run; software OpenGL on a busy machine is slow.
 SECONDS = 540
+#: Width and height of the screen and of Blender's window in it, pixels.
+SCREEN = (1200, 800)
 
 
 class Window:
@@ -42,19 +45,19 @@ def run_in_window(steps: str, folder: Path, *arguments: str) -> Window:
     """Runs `window/<steps>.py` with the file of facts, these arguments, and the folders that all steps need."""
     host = host_named("3.4")
     host.require()
-    assert shutil.which("xvfb-run"), "xvfb-run is not there: install xvfb and xauth (scripts/setup --tests does)"
-    command = ["xvfb-run", "-a", "-s", "-screen 0 1200x800x24", host.path, "--factory-startup"]
-    command += ["--enable-event-simulate", "--window-geometry", "0", "0", "1200", "800"]
+    width, height = SCREEN
+    command = [host.path, "--factory-startup", "--enable-event-simulate"]
+    command += ["--window-geometry", "0", "0", str(width), str(height)]
     command += ["-P", str(HERE / "window" / f"{steps}.py"), "--", str(folder / "facts.jsonl"), *arguments]
     command += [str(ADDON_FOLDER), os.environ.get("SKINGLOW_SITE_311", "")]
     log = folder / "output.txt"
-    with log.open("w") as output:
-        # What ends it after that time ends Xvfb too.
+    with virtual_display(width, height) as display, log.open("w") as output:
+        # Blender's own processes too are ended after that time.
         subprocess.run(
             ["timeout", "--kill-after=10", str(SECONDS), *command],
             stdout=output,
             stderr=subprocess.STDOUT,
-            env=host.environment(folder),
+            env={**host.environment(folder), "DISPLAY": display},
             cwd=folder,
             check=False,
         )
