@@ -41,7 +41,7 @@ def watching(scene: bpy.types.Scene) -> Iterator[Shown]:
     def watch(rendered: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
         if rendered.name != scene.name or depsgraph.mode != "RENDER":
             return
-        if SESSION.render_frame not in (None, rendered.frame_current_final):
+        if SESSION.render_frame not in (None, rendered.frame_current + rendered.frame_subframe):
             return
         try:
             _record(shown, depsgraph)

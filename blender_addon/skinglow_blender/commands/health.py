@@ -20,7 +20,7 @@ from ..show.tile_image import TILES
 from ..thickness import thickness_attribute
 from ..thickness.thickness_attribute import KNOWN_ATTRIBUTE, THICKNESS_ATTRIBUTE
 from .freezing import unfreeze
-from .material_health import REPAIR, Fault, material_faults, measured_slots
+from .material_health import REPAIR, Fault, layer_faults, material_faults, measured_slots
 from .skin import make_skin, skin_settings_of
 
 MEASURE = "press Measure Thickness"
@@ -61,6 +61,8 @@ def quick_faults(obj: bpy.types.Object) -> list[Fault]:
         faults += material_faults(obj)
         if is_frozen(group):
             faults += _frozen_faults(obj, group)
+    if bpy.context.view_layer is not None:
+        faults += layer_faults(obj, bpy.context.view_layer)
     report = shape_report(obj)
     if report is not None and report.reason not in (None, EDIT_MODE):
         what, remedy = report.reason

@@ -10,6 +10,7 @@ from ..show.skin_material import chosen_materials, gives_thickness, skin_node
 from ..show.subsurface import light_shown_by
 
 REPAIR = "press Repair, or call make_skin"
+CHOOSE_SHOWN_BY = "choose who shows it under Material > Light Shown By"
 
 
 class Fault(NamedTuple):
@@ -48,12 +49,30 @@ def material_faults(obj: bpy.types.Object) -> list[Fault]:
     faults += [
         Fault(
             f"Material '{material.name}' scatters light below its surface, which comes through it a second time",
-            "choose who shows it under Material > Light Shown By",
+            CHOOSE_SHOWN_BY,
             is_hint=True,
         )
         for material in with_node
         if light_shown_by(material) == "BOTH"
     ]
+    return faults
+
+
+def layer_faults(obj: bpy.types.Object, layer: bpy.types.ViewLayer) -> list[Fault]:
+    """What a view layer shows in place of a skin's materials."""
+    faults = []
+    if layer.material_override is not None:
+        what = f"View layer '{layer.name}' shows material '{layer.material_override.name}' in place of all others"
+        faults.append(
+            Fault(f"{what}, so it does not glow there", "clear View Layer > Override > Material", is_hint=True)
+        )
+    for name, words, is_on in (
+        ("Holdout", "a holdout", obj.is_holdout or obj.holdout_get(view_layer=layer)),
+        ("Shadow Catcher", "a shadow catcher", obj.is_shadow_catcher),
+    ):
+        if is_on:
+            remedy = f"turn off {name} under Object Properties > Visibility, or that of its collection"
+            faults.append(Fault(f"It is {words}, so it does not glow", remedy, is_hint=True))
     return faults
 
 

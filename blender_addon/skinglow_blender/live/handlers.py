@@ -59,7 +59,7 @@ def on_frame_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> N
     """Called after a frame change: in an animation render this is the only depsgraph with that frame's lights."""
     if not has_skins(depsgraph):
         return
-    if depsgraph.mode == "RENDER" and SESSION.render_frame not in (None, scene.frame_current_final):
+    if depsgraph.mode == "RENDER" and SESSION.render_frame not in (None, _frame_of(scene)):
         # A motion blur step. The lookup is that of the frame itself; writing now would overwrite it before the renderer
         # has read it.
         return
@@ -81,7 +81,12 @@ def on_render_init(_scene: bpy.types.Scene, _unused: None) -> None:
 def on_render_pre(scene: bpy.types.Scene, _unused: None) -> None:
     """Called when the render of a frame begins."""
     SESSION.rendering = True
-    SESSION.render_frame = scene.frame_current_final
+    SESSION.render_frame = _frame_of(scene)
+
+
+def _frame_of(scene: bpy.types.Scene) -> float:
+    """The frame before time is remapped: other scenes that the compositor renders have it in common."""
+    return scene.frame_current + scene.frame_subframe
 
 
 @guarded

@@ -31,11 +31,22 @@ def shown_layers() -> list[bpy.types.ViewLayer]:
 
 
 def is_shown(depsgraph: bpy.types.Depsgraph) -> bool:
-    """Whether a depsgraph belongs to a render or to a view layer shown in a window.
+    """Whether a depsgraph belongs to a render, to a view layer shown in a window, or to a scene strip of one.
 
     `frame_set` evaluates all view layers of the scene; the viewport's lookup is that of the visible layer.
     """
-    return depsgraph.mode == "RENDER" or depsgraph.view_layer in shown_layers()
+    if depsgraph.mode == "RENDER" or depsgraph.view_layer in shown_layers():
+        return True
+    return any(depsgraph.scene in _scenes_of_strips(window.scene) for window in bpy.context.window_manager.windows)
+
+
+def _scenes_of_strips(scene: bpy.types.Scene) -> set[bpy.types.Scene]:
+    """The scenes that the Sequencer's preview of a scene draws, which evaluates them."""
+    editor = scene.sequence_editor
+    if editor is None:
+        return set()
+    strips = editor.strips_all if hasattr(editor, "strips_all") else editor.sequences_all
+    return {strip.scene for strip in strips if strip.type == "SCENE"}
 
 
 def update_shown(depsgraph: bpy.types.Depsgraph, known: Known | None = None) -> list[Rebuilt]:
@@ -44,9 +55,9 @@ def update_shown(depsgraph: bpy.types.Depsgraph, known: Known | None = None) -> 
     known  what an earlier reading of it found, if that still holds
     """
     layers = shown_layers()
-    if depsgraph.mode == "RENDER" or len(layers) == 1:
+    if depsgraph.mode == "RENDER" or depsgraph.view_layer == layers[0]:
         return update_scene(depsgraph, only_live=True, known=known)
-    earlier = layers[: layers.index(depsgraph.view_layer)]
+    earlier = layers[: layers.index(depsgraph.view_layer)] if depsgraph.view_layer in layers else layers
     return update_scene(
         depsgraph,
         only_live=True,

@@ -12,6 +12,7 @@ from ..read import working_space
 from .group_sockets import replace_group
 from .lut_image import FROZEN_PROPERTY, is_skin_group, skin_groups
 from .skin_group import new_group
+from .surface_shaders import emits
 
 #: Custom property of the node in a material: the material's original emission sampling.
 SAMPLING_PROPERTY = "skinglow_sampling"
@@ -91,9 +92,12 @@ def add_to_materials(obj: bpy.types.Object, group: bpy.types.NodeTree | None) ->
 def _stop_sampling(material: bpy.types.Material) -> None:
     """Keeps Cycles from sampling each face of the skin as a light, and remembers how it did.
 
-    It would spend most of its samples on them: three times the render time, for light too faint to need that.
+    It would spend most of its samples on them: three times the render time, for light too faint to need that. Where the
+    user's own shader gives off light, that needs to be sampled.
     """
     nodes = [node for node in skin_nodes(material) if node.id_data.library is None]
+    if any(map(emits, nodes)):
+        return
     sampling = blender_version.emission_sampling(material)
     if material.library is None and sampling is not None and not any(SAMPLING_PROPERTY in node for node in nodes):
         blender_version.set_emission_sampling(material, blender_version.NO_EMISSION_SAMPLING)

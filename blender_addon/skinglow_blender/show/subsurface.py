@@ -15,6 +15,7 @@ from .group_sockets import MEASURED
 from .node_building import NodeBuilder
 from .skin_group import measured_thickness
 from .skin_material import skin_input, skin_nodes
+from .surface_shaders import shaders_before
 
 FADE_GROUP = "Skinglow Subsurface"
 #: Custom property that marks the group and its version.
@@ -110,29 +111,14 @@ def _is_dark(node: bpy.types.Node) -> bool:
 
 def _scattering(node: bpy.types.Node) -> Iterator[bpy.types.NodeSocket]:
     """The sockets upstream of a skin's node that say how much a shader scatters below the surface."""
-    yield from _upstream(node.inputs["Surface"], set())
-
-
-def _upstream(socket: bpy.types.NodeSocket, seen: set[bpy.types.Node]) -> Iterator[bpy.types.NodeSocket]:
-    for link in socket.links:
-        node = link.from_node
-        if node in seen:
-            continue
-        seen.add(node)
+    for shader in shaders_before(node):
         amount = None
-        if node.bl_idname == "ShaderNodeBsdfPrincipled":
-            amount = blender_version.socket_named(node.inputs, "Subsurface Weight", "Subsurface")
-        elif node.bl_idname == "ShaderNodeSubsurfaceScattering":
-            amount = node.inputs["Scale"]
-        if amount is not None and not node.mute and (amount.is_linked or amount.default_value > 0.0):
+        if shader.bl_idname == "ShaderNodeBsdfPrincipled":
+            amount = blender_version.socket_named(shader.inputs, "Subsurface Weight", "Subsurface")
+        elif shader.bl_idname == "ShaderNodeSubsurfaceScattering":
+            amount = shader.inputs["Scale"]
+        if amount is not None and (amount.is_linked or amount.default_value > 0.0):
             yield amount
-        if node.bl_idname == "ShaderNodeGroup" and node.node_tree is not None and not node.mute:
-            for inner in node.node_tree.nodes:
-                if inner.bl_idname == "NodeGroupOutput" and inner.is_active_output:
-                    yield from _upstream(inner.inputs[link.from_socket.name], seen)
-        for each in node.inputs:
-            if each.type == "SHADER" or node.bl_idname == "NodeReroute":
-                yield from _upstream(each, seen)
 
 
 def _fade_of(socket: bpy.types.NodeSocket) -> bpy.types.Node | None:

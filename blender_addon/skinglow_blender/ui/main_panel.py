@@ -4,6 +4,7 @@
 import bpy
 
 from ..commands.health import FREEZE_AGAIN, FREEZE_MORE, quick_faults
+from ..commands.material_health import CHOOSE_SHOWN_BY
 from ..identity import key_of
 from ..read.measured_geometry import unit_mm
 from ..session import SESSION
@@ -76,7 +77,7 @@ def _draw_faults(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy
         box.operator("skinglow.repair", text="Repair", icon="FILE_REFRESH")
     elif remedies:
         box.operator("skinglow.unfreeze", text="Unfreeze", icon="LIGHT_SUN")
-    if any(fault.is_hint for fault in faults):
+    if any(fault.remedy == CHOOSE_SHOWN_BY for fault in faults):
         box.label(text="Light Shown By:")
         draw_shown_by(box.row(align=True), "BOTH")
 

@@ -166,6 +166,34 @@ def check_two_scenes(_work):
     np.testing.assert_allclose(sb.lut(two, graph), fresh_table(two, graph), rtol=3e-6)
 
 
+def check_scene_strips(_work):
+    """The Sequencer's preview evaluates scenes that no window shows: their skins follow, but for those it shows too."""
+    strips_of, window = bpy.context.scene, bpy.context.window_manager.windows[0]
+    own = skin("Own")
+    add_light("Own light", color=(1.0, 0.0, 0.0))
+    scene = bpy.data.scenes.new("Strip")
+    window.scene = scene
+    inside = skin("Inside")
+    key = add_light("Key", color=(0.0, 1.0, 0.0))
+    scene.collection.objects.link(own)
+    for frame in (1, 9):
+        key.location.z = frame
+        key.keyframe_insert("location", frame=frame)
+    assert_fresh(inside)
+    window.scene = strips_of
+    assert_fresh(own)
+    before = sb.lut(inside, depsgraph()).copy()
+    scene.frame_set(9)
+    np.testing.assert_array_equal(sb.lut(inside, depsgraph()), before)
+    editor = strips_of.sequence_editor_create()
+    (editor.strips if hasattr(editor, "strips") else editor.sequences).new_scene("Strip", scene, 1, 1)
+    for frame in (9, 4):
+        scene.frame_set(frame)
+        graph = scene.view_layers[0].depsgraph
+        np.testing.assert_allclose(sb.lut(inside, graph), fresh_table(inside, graph), rtol=3e-6)
+        assert_fresh(own)
+
+
 def check_frames_with_two_view_layers(_work):
     """frame_set evaluates both layers; shown is the one in the window, and the other after switching to it."""
     scene, window = bpy.context.scene, bpy.context.window_manager.windows[0]

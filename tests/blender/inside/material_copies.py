@@ -169,6 +169,33 @@ def check_group_as_asset(work):
     assert blender_version.emission_sampling(material) == sampling
 
 
+def check_emission_of_the_user_stays_sampled(_work):
+    """A tattoo of light, also in a node group, goes on being a light to Cycles; a black emission is none."""
+    for name, strength, in_group in (("Dark", 0.0, False), ("Bright", 5.0, False), ("Bright inside", 5.0, True)):
+        material = black_material(name)
+        tree = material.node_tree
+        emission = tree.nodes["Emission"]
+        if in_group:
+            inner = bpy.data.node_groups.new("Inner", "ShaderNodeTree")
+            if hasattr(inner, "interface"):
+                inner.interface.new_socket("Shader", in_out="OUTPUT", socket_type="NodeSocketShader")
+            else:
+                inner.outputs.new("NodeSocketShader", "Shader")
+            tree.nodes.remove(emission)
+            emission, end = inner.nodes.new("ShaderNodeEmission"), inner.nodes.new("NodeGroupOutput")
+            inner.links.new(emission.outputs[0], end.inputs[0])
+            node = tree.nodes.new("ShaderNodeGroup")
+            node.node_tree = inner
+            tree.links.new(node.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+        emission.inputs["Strength"].default_value = strength
+        before = blender_version.emission_sampling(material)
+        obj = second_skin(material)
+        stays = before if strength else blender_version.NO_EMISSION_SAMPLING
+        assert blender_version.emission_sampling(material) == stays, name
+        sb.remove_skin(obj)
+        assert blender_version.emission_sampling(material) == before
+
+
 def check_appended_object(work):
     """With its material, twice, as Copy and Paste do."""
     thin = expected(2.0, work)

@@ -104,6 +104,45 @@ def check_animation_with_motion_blur(work):
     assert_frames(work / "blur", 2e-5)
 
 
+def check_a_second_scene_whose_time_is_remapped(work):
+    """The compositor renders it at the first one's frame, which it maps to another: that is no motion blur step."""
+    second, _ = scene_with_moving_light()
+    second.render.frame_map_old, second.render.frame_map_new = 100, 50
+    for extra in (False, True):
+        first = show_in_another_scene(second)
+        first.render.use_motion_blur = second.render.use_motion_blur = extra
+        first.render.filepath = str(work / "remapped.exr")
+        for frame in (2, 4):
+            first.frame_set(frame)
+            bpy.ops.render.render(write_still=True)
+            picture = read_exr(first.render.filepath)
+            np.testing.assert_allclose(picture[1], expected_frame(2 * frame), atol=2e-5, err_msg=f"{frame} {extra}")
+
+
+def show_in_another_scene(second):
+    """A scene in the window whose compositor shows a render of the second one, and nothing else."""
+    camera = second.camera
+    first = bpy.data.scenes.new("First")
+    bpy.context.window.scene = first
+    first.collection.objects.link(camera)
+    first.camera = camera
+    render_settings(second.render.resolution_x, second.render.resolution_y)
+    if hasattr(first, "compositing_node_group"):
+        tree = first.compositing_node_group = bpy.data.node_groups.new("Composite", "CompositorNodeTree")
+        tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
+        end = tree.nodes.new("NodeGroupOutput")
+    else:
+        first.use_nodes = True
+        tree = first.node_tree
+        tree.nodes.clear()
+        end = tree.nodes.new("CompositorNodeComposite")
+    for scene in (first, second):  # the last one is shown; a render of its own scene brings about a composite
+        layers = tree.nodes.new("CompositorNodeRLayers")
+        layers.scene = scene
+    tree.links.new(layers.outputs[0], end.inputs[0])
+    return first
+
+
 def check_viewport_and_render_have_lights_of_their_own(work):
     """One light for the viewport only, one for the render only; each sees its own, before, while and after."""
     view, final = add_light("View", color=(1.0, 0.0, 0.0)), add_light("Final", color=(0.0, 0.0, 1.0))

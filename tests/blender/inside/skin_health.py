@@ -110,6 +110,31 @@ def check_no_false_alarm(_work):
     assert sb.health(obj) == []
 
 
+def check_what_a_view_layer_shows_instead_is_told(_work):
+    """Material Override, Holdout and Shadow Catcher take the light away; they are what was asked for, no fault."""
+    obj, layer = healthy_skin(), bpy.context.view_layer
+    inner = bpy.data.collections.new("Inner")
+    bpy.context.scene.collection.children.link(inner)
+    inner.objects.link(obj)
+    bpy.context.scene.collection.objects.unlink(obj)
+    children = layer.layer_collection.children
+    clay = bpy.data.materials.new("Clay")
+    for owner, name, value, words in (
+        (layer, "material_override", clay, "shows material 'Clay' in place of all others"),
+        (obj, "is_holdout", True, "It is a holdout"),
+        (children["Inner"], "holdout", True, "It is a holdout"),
+        (obj, "is_shadow_catcher", True, "It is a shadow catcher"),
+    ):
+        before = getattr(owner, name)
+        setattr(owner, name, value)
+        depsgraph()
+        (hint,) = sb.health(obj)
+        assert words in hint.what and hint.is_hint, hint
+        setattr(owner, name, before)
+        depsgraph()
+        assert sb.health(obj) == []
+
+
 def check_what_cannot_be_repaired_stays_told(_work):
     obj = healthy_skin()
     remesh = obj.modifiers.new("New", "REMESH")
