@@ -40,6 +40,7 @@ from .ui import (
     slot_choice,
     thickness_operators,
     thumbnails,
+    waiting_operators,
 )
 
 bl_info = {
@@ -103,6 +104,7 @@ _PARTS = (
     measuring_operators,
     freeze_operators,
     farm_operators,
+    waiting_operators,
     thickness_operators,
     heat_map,
     presets,

@@ -39,6 +39,11 @@ class Session:
         self.marks: dict[str, tuple[int, str]] = {}
         self.rendering = False
         self.render_frame: float | None = None
+        #: Renders that wait in a thread for light through shapes.
+        self.waiting = 0
+        #: Whether the user ended what the last update waited for, and the signals that said so.
+        self.interrupted = False
+        self.signals: list[int] = []
         #: What the last update read, and of which depsgraph; None if undo or load made its objects invalid.
         self.reading: tuple[int, SceneReading] | None = None
         #: Address of a depsgraph to the objects of it that matter, as of its last reading.
@@ -88,7 +93,17 @@ class Session:
 
     def forget(self) -> None:
         """Resets to the state before the first update; measuring, freezing and light through shapes go on."""
-        names = ("measuring", "freezing", "updates", "shapes", "shown_meshes", "shape_worker")
+        names = (
+            "measuring",
+            "freezing",
+            "waiting",
+            "interrupted",
+            "signals",
+            "updates",
+            "shapes",
+            "shown_meshes",
+            "shape_worker",
+        )
         kept = {name: getattr(self, name) for name in names}
         self.__init__()
         self.__dict__.update(kept)

@@ -169,6 +169,7 @@ def wait() -> None:
         time.sleep(0.002)
 
 
-main()
-sys.stdout.flush()
-os._exit(0)  # the 4.5 wheel hangs otherwise
+if __name__ == "__main__":
+    main()
+    sys.stdout.flush()
+    os._exit(0)  # the 4.5 wheel hangs otherwise

@@ -32,5 +32,11 @@ def test_the_pictures_differ(window: Window) -> None:
     assert np.abs(pictures["solved"] - pictures["moved"]).mean() > 0.0
 
 
+def test_esc_ends_what_a_render_waits_for(window: Window) -> None:
+    waiting, longest, fault = window["canceled"]
+    assert waiting == 0 and "canceled" in fault
+    assert longest < 20.0
+
+
 def test_the_thread_ends_with_the_add_on(window: Window) -> None:
     assert window["after"] == [True, 0]

@@ -15,6 +15,7 @@ import bpy
 
 from .. import blender_version
 from ..errors import SkinError, core
+from ..live.waiting import require_uninterrupted
 from .inputs import engine_settings
 from .manifest import file_digest, this_process
 from .rigs import ReadyRig, check_lights
@@ -61,9 +62,11 @@ def make_picture(
 
 def _render(scene: bpy.types.Scene, frame: int, partial: Path) -> Shown:
     scene.frame_set(frame)
+    require_uninterrupted()
     scene.render.filepath = blender_version.literal_path(str(partial))
     with watching(scene) as shown:
         bpy.ops.render.render(write_still=True, scene=scene.name)
+    require_uninterrupted()
     if not partial.is_file() or partial.stat().st_size == 0:
         raise RuntimeError("Blender wrote no picture: the render was canceled or failed (see Blender's own output)")
     return shown

@@ -12,6 +12,7 @@ from ..errors import SkinError
 from ..identity import key_of
 from ..live.frozen_update import mark_of
 from ..live.live_update import update_scene
+from ..live.waiting import require_uninterrupted
 from ..read.file_skins import skins_of_file
 from ..read.scene_reading import read_scene
 from ..session import SESSION
@@ -81,8 +82,10 @@ class Freezing:
     def step(self) -> bool:
         """Writes one frame; returns whether there are more."""
         self.scene.frame_set(self.frame)
+        require_uninterrupted()
         marks = _marks(self.scene)
         shown = shown_in_render(self.scene)
+        require_uninterrupted()
         if not all([part.take(shown) for part in self.parts]):
             self._restart()
             return True

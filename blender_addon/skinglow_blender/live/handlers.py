@@ -99,6 +99,14 @@ def on_render_end(_scene: bpy.types.Scene, _unused: None) -> None:
 
 
 @guarded
+def on_render_cancel(scene: bpy.types.Scene, _unused: None) -> None:
+    """Called when a render is canceled: what it waited for then is no fault."""
+    for key in [key for (key, mode), state in SESSION.shapes.items() if mode == "RENDER" and state.is_canceled]:
+        SESSION.faults.pop(key, None)
+    on_render_end(scene, None)
+
+
+@guarded
 def on_undo(_first: Any, _second: Any) -> None:  # noqa: ANN401
     """Called after undo and redo: all cached state is invalid. Pixels are not undone, but the images in the nodes are.
 
@@ -164,7 +172,7 @@ HANDLERS = (
     ("render_init", on_render_init),
     ("render_pre", on_render_pre),
     ("render_complete", on_render_end),
-    ("render_cancel", on_render_end),
+    ("render_cancel", on_render_cancel),
     ("load_post", on_load),
     ("undo_post", on_undo),
     ("redo_post", on_undo),

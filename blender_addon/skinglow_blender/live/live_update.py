@@ -22,7 +22,7 @@ from ..table.lut_layout import Layout, layout_of, plain_row, surface_row
 from ..table.occlusion import with_visible_fractions
 from ..table.skin_tables import Signature, Table, compute_table, signature_of
 from ..table.texel_mapping import texels_per_mm
-from . import shape_answers, shape_update
+from . import shape_answers, shape_update, waiting
 from .frozen_update import follow_frozen, mark_of
 from .shape_tiles import hide_tiles, write_tiles
 
@@ -55,6 +55,7 @@ def update_scene(
     known     what an earlier reading of this depsgraph found, if that still holds; None: every object is looked at
     """
     SESSION.updates += 1
+    SESSION.interrupted = False
     faults: dict[str, str] = {}
     reading = with_visible_fractions(read_scene(depsgraph, known), depsgraph, faults)
     address = depsgraph.as_pointer()
@@ -92,6 +93,7 @@ def update_scene(
     SESSION.faults = faults
     shape_update.forget_lost({skin.key for _obj, skin in reading.skins if skin.shape is not None})
     shape_answers.take_soon()
+    waiting.pass_on()
     return rebuilt
 
 

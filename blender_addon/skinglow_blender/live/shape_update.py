@@ -33,6 +33,7 @@ from ..table.skin_tables import Table
 from ..thickness import thickness_attribute
 from ..thickness.tile_attribute import TILES_OF_MESH, encloses_flesh, is_of_this_mesh, rows_of
 from .newest_wins import NewestWins
+from .waiting import interruptible, may_go_on
 
 #: Fraction of the tiled area that may be covered twice, or lie between two tiles.
 MAX_UNFIT = 0.01
@@ -40,6 +41,9 @@ MAX_UNFIT = 0.01
 REST = 0.4
 #: Errors of the core that are told to the user.
 FAILURES = (ValueError, RuntimeError, MemoryError, SkinError, ImportError)
+
+
+CANCELED = "canceled before its light was solved: it shows the lookup by thickness"
 
 
 class Unfit(NamedTuple):
@@ -99,6 +103,11 @@ class ShapeState:
         """Whether what is shown is the full answer."""
         answer = self.shown.answer if self.shown is not None else None
         return answer is not None and answer.full and answer.body is self.body and answer.light.same(self.light)
+
+    @property
+    def is_canceled(self) -> bool:
+        """Whether the user ended the wait for its light."""
+        return self.fault == CANCELED
 
     def receive(self, answer: Answer | BaseException) -> bool:
         """Takes an answer of the body; returns whether there is something new to show."""
@@ -313,10 +322,13 @@ def _drop(key: str, mode: str) -> None:
 
 def _solve_now(state: ShapeState) -> None:
     try:
-        for answer in solve(state.body, state.light, lambda _fraction: True, coarse=False, recolors=False):
-            state.receive(answer)
+        with interruptible():
+            for answer in solve(state.body, state.light, may_go_on, coarse=False, recolors=False):
+                state.receive(answer)
     except FAILURES as error:
         state.receive(error)
+        if SESSION.interrupted:
+            state.fault = CANCELED
 
 
 def _show_at_once(state: ShapeState) -> bool:
@@ -352,6 +364,7 @@ class ShapeReport(NamedTuple):
     points: int  #: that the texels show
     thick_points: int  #: of them those in no thin part, through which no light comes
     milliseconds: float | None  #: that the last answer took
+    first_seconds: float | None  #: that its first light took, as in each frame in which the mesh deforms
     error: tuple[float, ...]  #: (r, g, b): estimated error, RMS over mean; empty before the full answer
     reason: Unfit | None  #: why the skin is lit per pixel instead; None: it is not
 
@@ -374,6 +387,7 @@ def shape_report(obj: bpy.types.Object, mode: str = "VIEWPORT") -> ShapeReport |
         points=report.get("points", 0),
         thick_points=report.get("points", 0) - report.get("points_in_parts", 0),
         milliseconds=1000.0 * answer.seconds if answer is not None else None,
+        first_seconds=answer.body.first_seconds if answer is not None else None,
         error=answer.error if answer is not None else (),
         reason=state.reason,
     )

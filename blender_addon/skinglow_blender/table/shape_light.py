@@ -86,13 +86,16 @@ class Body:
     def __init__(self, key: BodyKey, tiles: Tiles, threads: int) -> None:
         self.key, self.tiles, self.threads = key, tiles, threads
         self.last_lit: Any = None  #: a skinglow.LitShape, of which the next one takes what did not change
+        self.first_seconds = 0.0  #: that making it ready and its first light took
         self._shape: Any = None
         self._lock = Lock()
 
     def shape(self, progress: Progress | None = None) -> Any:  # noqa: ANN401  a skinglow.Shape
         with self._lock:
             if self._shape is None:
+                started = time.perf_counter()
                 self._shape = self._make(progress)
+                self.first_seconds = time.perf_counter() - started
             return self._shape
 
     def _make(self, progress: Progress | None) -> Any:  # noqa: ANN401
@@ -209,10 +212,13 @@ def _solved(shape: Any, body: Body, light: Light, progress: Progress, *, full: b
         progress=progress,
         **({} if full else COARSE),
     )
+    seconds = time.perf_counter() - started
+    if body.last_lit is None:
+        body.first_seconds += seconds
     body.last_lit = lit
     error = tuple(float(e) for e in lit.report["error"]) if full else ()
     radiance = radiance_of(lit)
-    return Answer(body, light, lit, radiance, full, False, time.perf_counter() - started, shape.report, error)
+    return Answer(body, light, lit, radiance, full, False, seconds, shape.report, error)
 
 
 def recolored(answer: Answer, light: Light) -> Answer | None:

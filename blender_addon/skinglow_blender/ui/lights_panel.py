@@ -129,8 +129,10 @@ def _draw_shape(column: bpy.types.UILayout, report: ShapeReport, context: bpy.ty
     draw_wrapped(column, solved, context, "MESH_DATA")
     cost = f"{report.cells:,} cells, {report.bytes / 1e6:.0f} MB, {report.milliseconds:.0f} ms"
     draw_wrapped(column, cost, context, "BLANK1")
+    first = f"The first light took {report.first_seconds:.1f} s, as each frame takes in which the mesh deforms"
+    draw_wrapped(column, first, context, "BLANK1")
     if report.error:
-        error = ", ".join(f"{part:.0%}" for part in report.error)
+        error = ", ".join(f"{part:.0%}" if part < 1.0 else "100% or more" for part in report.error)
         draw_wrapped(column, f"Estimated error {error} (R, G, B)", context, "BLANK1")
     if report.thick_points:
         share = report.thick_points / report.points

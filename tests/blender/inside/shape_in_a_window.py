@@ -1,15 +1,18 @@
 """What a window does, where a thread solves the light: here its answers are taken by hand."""
 
+import os
+import signal
 import time
 from contextlib import contextmanager
 
+import bpy
 import numpy as np
 import skinglow_blender as sb
 from skinglow_blender.identity import key_of
 from skinglow_blender.live import shape_answers, shape_update
 from skinglow_blender.session import SESSION
 
-from inside.scenes import depsgraph
+from inside.scenes import camera_above, depsgraph, render_settings
 from inside.shape_scenes import assert_through, lobe, shape_skin, shown, sun, turn
 
 
@@ -63,6 +66,7 @@ def check_the_table_stands_in_and_then_light_is_solved(_work):
         assert_through(obj)
         state = report(obj)
         assert 0 < state.ready_parts <= state.parts and state.cells > 0 and state.bytes > 0
+        assert 0.0 < state.milliseconds < 1000.0 * state.first_seconds
         assert len(state.error) == 3 and state.progress is None
         # A moved light: what was shown stays until there is something better.
         before = pixels(obj)
@@ -116,3 +120,59 @@ def check_the_newest_request_wins_and_faults_are_told(_work):
         # A render waits for its own light, and leaves that of the viewport.
         sb.remove_skin(obj)
         assert not SESSION.shapes and not SESSION.shape_worker.is_busy
+
+
+def check_ctrl_c_ends_what_a_render_waits_for(work):
+    """The signal goes on to whom it was for: a function here, or else Blender's own, which cancels the render."""
+    key = sun()
+    obj = lobe(levels=2)
+    shape_skin(obj)
+    camera_above()
+    scene = render_settings(8, 8)
+    scene.render.filepath = str(work / "canceled.exr")
+    heard, asked = [], []
+
+    def press(_fraction):
+        asked.append(SESSION.interrupted)
+        if len(asked) == 1:
+            os.kill(os.getpid(), signal.SIGINT)
+        return go_on(_fraction)
+
+    go_on = shape_update.may_go_on
+    of_blender = signal.getsignal(signal.SIGINT) is None
+    if not of_blender:
+        before = signal.signal(signal.SIGINT, lambda number, _frame: heard.append(number))
+    shape_update.may_go_on = press
+    try:
+        with in_a_window():
+            turn(key, (-0.6, 0.3, 1.0))
+            bpy.ops.render.render(write_still=True)
+        in_render, told = list(asked), shape_update.state_of(key_of(obj), "RENDER").fault
+        asked.clear()
+        if of_blender:
+            assert not SESSION.faults, "a canceled render is no fault"
+        key.keyframe_insert("rotation_euler", frame=1)
+        turn(key, (-0.7, 0.3, 1.0))
+        key.keyframe_insert("rotation_euler", frame=2)
+        shape_update.may_go_on = go_on
+        scene.frame_set(1)
+        shape_update.may_go_on = press
+        try:
+            sb.render_batch(work / "batch", frames=2, scene=scene)
+            raise AssertionError("the batch went on")
+        except KeyboardInterrupt:
+            pass
+    finally:
+        shape_update.may_go_on = go_on
+        if not of_blender:
+            handler = signal.signal(signal.SIGINT, before)
+    assert in_render == asked == [False], "it went on"
+    assert "canceled" in told and not list((work / "batch").glob("**/*.exr"))
+    if of_blender:
+        assert not (work / "canceled.exr").exists()
+    else:
+        assert heard == 2 * [signal.SIGINT] and handler.__name__ == "<lambda>"
+    # Nothing is kept of it: the next render waits for the whole.
+    bpy.ops.render.render(write_still=True)
+    assert (work / "canceled.exr").exists()
+    assert shape_update.state_of(key_of(obj), "RENDER").is_full and not SESSION.faults

@@ -15,9 +15,11 @@ sys.path.append(core_folder)
 import bpy  # noqa: E402
 import numpy as np  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
+from skinglow_blender.identity import key_of  # noqa: E402
+from skinglow_blender.live import shape_update  # noqa: E402
 from skinglow_blender.session import SESSION  # noqa: E402
 from skinglow_blender.ui import lights_panel, main_panel  # noqa: E402
-from window_steps import in_view, open_sidebar, run_steps, save_picture, wait_for  # noqa: E402
+from window_steps import area_of, in_view, open_sidebar, press, run_steps, save_picture, wait_for  # noqa: E402
 
 PATIENCE = 120.0
 FOLDER = Path(facts_file).parent
@@ -70,6 +72,35 @@ def picture(name):
         save_picture(str(FOLDER / f"{name}.png"))
 
 
+def cancel_a_render():
+    """Esc while a render waits; it is sent to add-ons only, not to Blender, which therefore goes on."""
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    scene.cycles.samples, scene.cycles.use_denoising = 1, False
+    scene.render.resolution_x = scene.render.resolution_y = 16
+    waited = []
+
+    def wait(_fraction):
+        started = time.monotonic()
+        while not SESSION.interrupted and time.monotonic() - started < PATIENCE:
+            time.sleep(0.01)
+        waited.append(time.monotonic() - started)
+        return not SESSION.interrupted
+
+    shape_update.may_go_on = wait
+    bpy.context.preferences.view.render_display_type = "NONE"
+    light().rotation_euler = (0.3, 0.9, 0.0)
+    with in_view():
+        bpy.ops.render.render("INVOKE_DEFAULT")
+    yield from wait_for(lambda: SESSION.waiting > 0, PATIENCE, "a render that waits")
+    yield 1.0
+    area = area_of("VIEW_3D")
+    yield from press("ESC", area.x + area.width // 2, area.y + area.height // 2)
+    yield from wait_for(lambda: not SESSION.rendering, PATIENCE, "the end of the render")
+    key = key_of(bpy.data.objects["Lobe"])
+    tell("canceled", [SESSION.waiting, max(waited), shape_update.state_of(key, "RENDER").fault])
+
+
 def steps():
     for obj in list(bpy.data.objects):
         if obj.type == "MESH":
@@ -110,6 +141,7 @@ def steps():
     tell(
         "report", [report_now.parts, report_now.ready_parts, report_now.cells, report_now.bytes, len(report_now.error)]
     )
+    yield from cancel_a_render()
     sb.unregister()
     tell("after", [SESSION.shape_worker is None, len(SESSION.shapes)])
 
