@@ -1,11 +1,13 @@
-"""What light in tiles costs: a frame of Cycles against plain emission and the other ways of the add-on, and new pixels.
+"""What light in tiles costs: a frame against plain emission and the other ways of the add-on, and new pixels.
 
 Run in a Blender whose Python finds skinglow:
 
-    python tests/benchmarks/tiles_in_blender.py [SEGMENTS]     # a bpy wheel; default 200: 20,000 vertices
+    python tests/benchmarks/tiles_in_blender.py [SEGMENTS [ENGINE]]     # a bpy wheel; default 200: 20,000 vertices
 
-    frame    CPU time of a Cycles frame, 128 x 128 at 64 samples, one thread, the smallest of five, s; with a black
-             surface, so that the nodes weigh most, and with a Principled BSDF that four lights shine on; in turns
+    frame    CPU time of a frame, 128 x 128 at 64 samples, the smallest of five, s, in turns; in Cycles on one thread.
+             The surface below the light of the skin is black and gets no light, so that Cycles has nothing to do but
+             to find the point of the skin and run the nodes; or diffuse, in one light, the least that lit skin can be;
+             or a Principled BSDF that four lights shine on
     write    from pixels in memory to the image of the renderer that is shown, median of 50, ms, by the image's rows
 """
 
@@ -29,6 +31,9 @@ from skinglow_blender.table.lut_layout import Layout  # noqa: E402
 from skinglow_blender.thickness.tile_attribute import ensure_tiles, rows_of  # noqa: E402
 
 ROUNDS = 5
+#: What is below the light of the skin, and how many lights there are.
+SURFACES = {"black surface": ("ShaderNodeEmission", 4), "diffuse, 1 light": ("ShaderNodeBsdfDiffuse", 1)}
+SURFACES["Principled, 4 lights"] = ("ShaderNodeBsdfPrincipled", 4)
 #: Nodes of the skin's group, and whether the object shows tiles.
 WAYS = {
     "one weight": (GroupNodes(), False),
@@ -38,7 +43,7 @@ WAYS = {
 }
 
 
-def scene(segments: int) -> bpy.types.Object:
+def scene(segments: int, lights: int = 4, engine: str = "CYCLES") -> bpy.types.Object:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.mesh.primitive_uv_sphere_add(segments=segments, ring_count=segments // 2, radius=30.0)
     ball = bpy.context.object
@@ -46,12 +51,16 @@ def scene(segments: int) -> bpy.types.Object:
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     camera.location, camera.data.clip_end = (0.0, 0.0, 100.0), 1000.0
     bpy.context.collection.objects.link(camera)
-    for i in range(4):
+    for i in range(lights):
         light = bpy.data.objects.new(f"Light {i}", bpy.data.lights.new(f"Light {i}", "POINT"))
         light.location, light.data.energy = (60.0 * (i % 2) - 30.0, 60.0 * (i // 2) - 30.0, 80.0), 1e5
         bpy.context.collection.objects.link(light)
     render, cycles = bpy.context.scene.render, bpy.context.scene.cycles
-    bpy.context.scene.camera, render.engine = camera, "CYCLES"
+    bpy.context.scene.camera = camera
+    if engine == "EEVEE":
+        engine = "BLENDER_EEVEE_NEXT" if (4, 2) <= bpy.app.version < (5, 0) else "BLENDER_EEVEE"
+    render.engine = engine
+    bpy.context.scene.eevee.taa_render_samples = 64
     cycles.samples, cycles.use_denoising, cycles.use_adaptive_sampling = 64, False, False
     cycles.filter_width = 0.01
     render.resolution_x = render.resolution_y = 128
@@ -65,12 +74,13 @@ def tree_of(material: bpy.types.Material) -> bpy.types.NodeTree:
     return material.node_tree
 
 
-def black_surface(material: bpy.types.Material) -> None:
+def set_surface(material: bpy.types.Material, kind: str) -> None:
     tree = tree_of(material)
     tree.nodes.clear()
-    emission, output = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeOutputMaterial")
-    emission.inputs["Strength"].default_value = 0.0
-    tree.links.new(emission.outputs[0], output.inputs["Surface"])
+    surface, output = tree.nodes.new(kind), tree.nodes.new("ShaderNodeOutputMaterial")
+    if kind == "ShaderNodeEmission":
+        surface.inputs["Strength"].default_value = 0.0
+    tree.links.new(surface.outputs[0], output.inputs["Surface"])
 
 
 def plain_emission(material: bpy.types.Material) -> None:
@@ -98,19 +108,20 @@ def show_random(ball: bpy.types.Object, mode: str) -> None:
 
 
 def cpu_seconds() -> float:
+    """Of a frame; EEVEE compiles its shaders in one before."""
+    if bpy.context.scene.render.engine != "CYCLES":
+        bpy.ops.render.render()
     before = resource.getrusage(resource.RUSAGE_SELF)
     bpy.ops.render.render()
     after = resource.getrusage(resource.RUSAGE_SELF)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def frames(segments: int, principled: bool) -> dict[str, float]:
+def frames(segments: int, kind: str, lights: int, engine: str) -> dict[str, float]:
     """Smallest times by way; all are made in one scene and shown in turns, as the machine is not alone."""
-    ball = scene(segments)
+    ball = scene(segments, lights, engine)
     plain = bpy.data.materials.new("Plain")
-    tree_of(plain)
-    if not principled:
-        black_surface(plain)
+    set_surface(plain, kind)
     skin_material = plain.copy()
     plain_emission(plain)
     ball.data.materials.append(skin_material)
@@ -159,11 +170,11 @@ def writes(segments: int) -> None:
 
 def main() -> None:
     segments = int(sys.argv[1]) if len(sys.argv) > 1 else 200
-    print(f"Blender {bpy.app.version_string}")
-    for principled in (False, True):
-        best = frames(segments, principled)
+    engine = sys.argv[2] if len(sys.argv) > 2 else "CYCLES"
+    print(f"Blender {bpy.app.version_string}, {engine}")
+    for surface, (kind, lights) in SURFACES.items():
+        best = frames(segments, kind, lights, engine)
         for name, seconds in best.items():
-            surface = "Principled, 4 lights" if principled else "black surface"
             print(f"RESULT frame {surface:20}  {name:20} {seconds:6.2f} s ({seconds / best['emission']:4.2f}x)")
             sys.stdout.flush()
     writes(segments)
