@@ -14,6 +14,7 @@ namespace {
 
 constexpr int edge = 3;  ///< of a block, in cells
 constexpr int block_cells = edge * edge * edge;
+static_assert(block_cells <= PointCluster::capacity);
 /// Length of a triangle's parts, and how far from their middle cells count as touched, in cells: what a line
 /// between two neighboring centers crosses is found in one of their cells.
 constexpr float part_cells = 0.3F;
@@ -52,78 +53,35 @@ std::vector<std::uint8_t> touched_voxels(const Body& body, const VoxelGrid& grid
 }
 
 /// Answers the voxels of one block.
-class BlockAsker {
-  public:
-    BlockAsker(const FleshSurface& surface, const VoxelGrid& grid, std::span<const std::uint8_t> wanted,
-               std::span<const std::uint8_t> touched, std::span<std::uint8_t> flesh)
-        : surface_(surface), grid_(grid), wanted_(wanted), touched_(touched), flesh_(flesh) {}
-
-    void ask(const glm::ivec3& corner) {
-        corner_ = corner;
-        bool any = false;
-        for (int c = 0; c < block_cells; ++c) {
-            const glm::ivec3 voxel = voxel_of(c);
-            const bool has = grid_.has(voxel);
-            const std::size_t i = has ? grid_.linear(voxel) : 0;
-            any = any || (has && wanted_[i] != 0);
-            open_[static_cast<std::size_t>(c)] = has && touched_[i] == 0;
-            done_[static_cast<std::size_t>(c)] = !has;
-        }
-        if (!any) return;
-        for (int c = 0; c < block_cells; ++c) {
-            if (done_[static_cast<std::size_t>(c)]) continue;
-            if (open_[static_cast<std::size_t>(c)]) {
-                answer_alike(c);
-            } else {
-                answer(c, winding(c) > 0.5);
-            }
+void ask(const FleshSurface& surface, const VoxelGrid& grid, const glm::ivec3& corner,
+         std::span<const std::uint8_t> wanted, std::span<const std::uint8_t> touched,
+         std::span<std::uint8_t> flesh) {
+    std::array<std::size_t, block_cells> asked{};
+    std::array<glm::vec3, block_cells> centers{};
+    std::size_t count = 0;
+    bool is_any_touched = false;
+    for (int c = 0; c < block_cells; ++c) {
+        const glm::ivec3 voxel = corner + glm::ivec3(c / (edge * edge), c / edge % edge, c % edge);
+        if (!grid.has(voxel)) continue;
+        const std::size_t i = grid.linear(voxel);
+        is_any_touched = is_any_touched || touched[i] != 0;
+        if (wanted[i] == 0) continue;
+        asked[count] = i;
+        centers[count++] = grid.center_of(voxel);
+    }
+    if (count == 0) return;
+    // Where nothing touches the block one number is that of all.
+    if (!is_any_touched) {
+        const double middle = surface.tree().winding(centers[count / 2]);
+        if (std::abs(middle - 0.5) > certain) {
+            for (std::size_t n = 0; n < count; ++n) flesh[asked[n]] = middle > 0.5 ? 1 : 0;
+            return;
         }
     }
-
-  private:
-    glm::ivec3 voxel_of(int c) const {
-        return corner_ + glm::ivec3(c / (edge * edge), c / edge % edge, c % edge);
-    }
-    double winding(int c) const { return surface_.tree().winding(grid_.center_of(voxel_of(c))); }
-    void answer(int c, bool is_flesh) {
-        done_[static_cast<std::size_t>(c)] = true;
-        const std::size_t i = grid_.linear(voxel_of(c));
-        if (wanted_[i] != 0) flesh_[i] = is_flesh ? 1 : 0;
-    }
-
-    /// A cell that nothing touches, and those that hang together with it.
-    void answer_alike(int first) {
-        alike_.assign(1, first);
-        done_[static_cast<std::size_t>(first)] = true;
-        for (std::size_t next = 0; next < alike_.size(); ++next) {
-            const int c = alike_[next];
-            const std::array<int, 3> at = {c / (edge * edge), c / edge % edge, c % edge};
-            const std::array<int, 3> stride = {edge * edge, edge, 1};
-            for (std::size_t d = 0; d < 3; ++d) {
-                for (const int sign : {-1, 1}) {
-                    if (at[d] + sign < 0 || at[d] + sign >= edge) continue;
-                    const auto other = static_cast<std::size_t>(c + sign * stride[d]);
-                    if (!open_[other] || done_[other]) continue;
-                    done_[other] = true;
-                    alike_.push_back(static_cast<int>(other));
-                }
-            }
-        }
-        const double middle = winding(alike_[alike_.size() / 2]);
-        const bool is_certain = std::abs(middle - 0.5) > certain;
-        for (const int c : alike_) answer(c, (is_certain ? middle : winding(c)) > 0.5);
-    }
-
-    const FleshSurface& surface_;
-    const VoxelGrid& grid_;
-    std::span<const std::uint8_t> wanted_;
-    std::span<const std::uint8_t> touched_;
-    std::span<std::uint8_t> flesh_;
-    glm::ivec3 corner_{0};
-    std::array<bool, block_cells> open_{};
-    std::array<bool, block_cells> done_{};
-    std::vector<int> alike_;
-};
+    std::array<float, block_cells> winding{};
+    surface.tree().windings(std::span(centers).first(count), winding);
+    for (std::size_t n = 0; n < count; ++n) flesh[asked[n]] = winding[n] > 0.5F ? 1 : 0;
+}
 
 }  // namespace
 
@@ -154,11 +112,11 @@ std::vector<std::uint8_t> find_flesh(const FleshSurface& surface, const VoxelGri
     const glm::ivec3 blocks = (grid.extent() + edge - 1) / edge;
     const auto count = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y);
     const auto work = [&](std::size_t begin, std::size_t end) {
-        BlockAsker asker(surface, grid, wanted, touched, flesh);
         for (std::size_t b = begin; b < end; ++b) {
             for (int z = 0; z < blocks.z; ++z)
-                asker.ask(glm::ivec3(static_cast<int>(b) / blocks.y, static_cast<int>(b) % blocks.y, z) *
-                          edge);
+                ask(surface, grid,
+                    glm::ivec3(static_cast<int>(b) / blocks.y, static_cast<int>(b) % blocks.y, z) * edge,
+                    wanted, touched, flesh);
         }
     };
     for_each_block(count, threads, work, {}, 8);
