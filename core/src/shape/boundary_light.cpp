@@ -1,6 +1,7 @@
 #include "shape/boundary_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -62,20 +63,32 @@ std::vector<Lean> find_leans(const Body& body, const VoxelGrid& grid, std::span<
                              std::vector<std::int32_t>& index, std::vector<float>& nearest_sq) {
     std::vector<Lean> leans;
     const float h = grid.cell();
+    std::array<glm::ivec3, 27> steps;
+    std::array<std::ptrdiff_t, 27> strides{};
+    for (int n = 0; n < 27; ++n) {
+        const auto k = static_cast<std::size_t>(n);
+        steps[k] = {n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1};
+        strides[k] = static_cast<std::ptrdiff_t>(grid.linear(steps[k] + 1)) -
+                     static_cast<std::ptrdiff_t>(grid.linear(glm::ivec3(1)));
+    }
     for (std::uint32_t i = 0; i < samples.size(); ++i) {
         stop_if_asked(i);
         const BoundarySample& s = samples[i];
         const BodyTriangle& t = body.triangles()[s.triangle];
         const glm::vec3 point = body.at(t, s.u, s.v);
         const glm::ivec3 middle = grid.voxel_of(point);
-        for (int n = 0; n < 27; ++n) {
-            const glm::ivec3 voxel = middle + glm::ivec3(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
-            if (grid.at(voxel) != VoxelGrid::outside) continue;
-            const glm::vec3 off = grid.center_of(voxel) - point;
+        const glm::vec3 to_middle = grid.center_of(middle) - point;
+        const bool is_amid = grid.has(middle - 1) && grid.has(middle + 1);
+        for (std::size_t n = 0; n < steps.size(); ++n) {
+            if (!is_amid && !grid.has(middle + steps[n])) continue;
+            const auto voxel =
+                static_cast<std::size_t>(static_cast<std::ptrdiff_t>(grid.linear(middle)) + strides[n]);
+            if (grid.index()[voxel] != VoxelGrid::outside) continue;
+            const glm::vec3 off = to_middle + glm::vec3(steps[n]) * h;
             const float height = std::max(0.0F, glm::dot(off, t.normal));
             const float aside_sq = glm::dot(off, off) - height * height;
             if (aside_sq > max_aside_sq * h * h) continue;
-            std::int32_t& number = index[grid.linear(voxel)];
+            std::int32_t& number = index[voxel];
             if (number < 0) {
                 number = static_cast<std::int32_t>(grid.size() + nearest_sq.size());
                 nearest_sq.push_back(std::numeric_limits<float>::infinity());

@@ -20,7 +20,7 @@ static_assert(block_cells <= PointCluster::capacity);
 constexpr float part_cells = 0.3F;
 constexpr float touch_cells = 0.25F;
 /// A winding number this far from 1/2 is that of all cells it stands for.
-constexpr double certain = 0.25;
+constexpr float certain = 0.25F;
 constexpr int max_parts = 400;
 
 void touch(const VoxelGrid& grid, const glm::vec3& point, std::vector<std::uint8_t>& touched) {
@@ -52,36 +52,78 @@ std::vector<std::uint8_t> touched_voxels(const Body& body, const VoxelGrid& grid
     return touched;
 }
 
-/// Answers the voxels of one block.
-void ask(const FleshSurface& surface, const VoxelGrid& grid, const glm::ivec3& corner,
-         std::span<const std::uint8_t> wanted, std::span<const std::uint8_t> touched,
-         std::span<std::uint8_t> flesh) {
-    std::array<std::size_t, block_cells> asked{};
-    std::array<glm::vec3, block_cells> centers{};
-    std::size_t count = 0;
-    bool is_any_touched = false;
-    for (int c = 0; c < block_cells; ++c) {
-        const glm::ivec3 voxel = corner + glm::ivec3(c / (edge * edge), c / edge % edge, c % edge);
-        if (!grid.has(voxel)) continue;
-        const std::size_t i = grid.linear(voxel);
-        is_any_touched = is_any_touched || touched[i] != 0;
-        if (wanted[i] == 0) continue;
-        asked[count] = i;
-        centers[count++] = grid.center_of(voxel);
-    }
-    if (count == 0) return;
-    // Where nothing touches the block one number is that of all.
-    if (!is_any_touched) {
-        const double middle = surface.tree().winding(centers[count / 2]);
-        if (std::abs(middle - 0.5) > certain) {
-            for (std::size_t n = 0; n < count; ++n) flesh[asked[n]] = middle > 0.5 ? 1 : 0;
-            return;
+/// Answers voxels, block by block.
+class FleshAsker {
+  public:
+    FleshAsker(const FleshSurface& surface, const VoxelGrid& grid, std::span<const std::uint8_t> wanted,
+               std::span<const std::uint8_t> touched, std::span<std::uint8_t> flesh)
+        : surface_(surface), grid_(grid), wanted_(wanted), touched_(touched), flesh_(flesh) {}
+
+    /// Those of a block; those that follow each other should be neighbors.
+    void ask(const glm::ivec3& corner) {
+        Block block;
+        bool is_any_touched = false;
+        for (int c = 0; c < block_cells; ++c) {
+            const glm::ivec3 voxel = corner + glm::ivec3(c / (edge * edge), c / edge % edge, c % edge);
+            if (!grid_.has(voxel)) continue;
+            const std::size_t i = grid_.linear(voxel);
+            is_any_touched = is_any_touched || touched_[i] != 0;
+            if (wanted_[i] == 0) continue;
+            block.voxels[block.count] = i;
+            block.centers[block.count++] = grid_.center_of(voxel);
+        }
+        if (block.count == 0) return;
+        if (is_any_touched) {
+            answer_each(block);
+        } else {
+            untouched_.push_back(block);
+            if (untouched_.size() == blocks_at_once) answer_untouched();
         }
     }
-    std::array<float, block_cells> winding{};
-    surface.tree().windings(std::span(centers).first(count), winding);
-    for (std::size_t n = 0; n < count; ++n) flesh[asked[n]] = winding[n] > 0.5F ? 1 : 0;
-}
+
+    /// Blocks that nothing touches: one number is that of a whole block, where it is certain.
+    void answer_untouched() {
+        if (untouched_.empty()) return;
+        std::array<glm::vec3, blocks_at_once> middles{};
+        std::array<float, blocks_at_once> winding{};
+        for (std::size_t b = 0; b < untouched_.size(); ++b)
+            middles[b] = untouched_[b].centers[untouched_[b].count / 2];
+        surface_.tree().windings(std::span(middles).first(untouched_.size()), winding);
+        for (std::size_t b = 0; b < untouched_.size(); ++b) {
+            const Block& block = untouched_[b];
+            if (std::abs(winding[b] - 0.5F) > certain) {
+                for (std::size_t n = 0; n < block.count; ++n)
+                    flesh_[block.voxels[n]] = winding[b] > 0.5F ? 1 : 0;
+            } else {
+                answer_each(block);
+            }
+        }
+        untouched_.clear();
+    }
+
+  private:
+    static constexpr std::size_t blocks_at_once = 8;
+
+    /// What of a block is wanted.
+    struct Block {
+        std::size_t count = 0;
+        std::array<std::size_t, block_cells> voxels;
+        std::array<glm::vec3, block_cells> centers;
+    };
+
+    void answer_each(const Block& block) {
+        std::array<float, block_cells> winding{};
+        surface_.tree().windings(std::span(block.centers).first(block.count), winding);
+        for (std::size_t n = 0; n < block.count; ++n) flesh_[block.voxels[n]] = winding[n] > 0.5F ? 1 : 0;
+    }
+
+    const FleshSurface& surface_;
+    const VoxelGrid& grid_;
+    std::span<const std::uint8_t> wanted_;
+    std::span<const std::uint8_t> touched_;
+    std::span<std::uint8_t> flesh_;
+    std::vector<Block> untouched_;
+};
 
 }  // namespace
 
@@ -112,11 +154,11 @@ std::vector<std::uint8_t> find_flesh(const FleshSurface& surface, const VoxelGri
     const glm::ivec3 blocks = (grid.extent() + edge - 1) / edge;
     const auto count = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y);
     const auto work = [&](std::size_t begin, std::size_t end) {
+        FleshAsker asker(surface, grid, wanted, touched, flesh);
         for (std::size_t b = begin; b < end; ++b) {
-            for (int z = 0; z < blocks.z; ++z)
-                ask(surface, grid,
-                    glm::ivec3(static_cast<int>(b) / blocks.y, static_cast<int>(b) % blocks.y, z) * edge,
-                    wanted, touched, flesh);
+            const glm::ivec3 first(static_cast<int>(b) / blocks.y, static_cast<int>(b) % blocks.y, 0);
+            for (int z = 0; z < blocks.z; ++z) asker.ask((first + glm::ivec3(0, 0, z)) * edge);
+            asker.answer_untouched();
         }
     };
     for_each_block(count, threads, work, {}, 8);

@@ -43,7 +43,7 @@ FleshSurface::FleshSurface(const Body& body, double cell_mm)
       cell_(static_cast<float>(cell_mm)),
       gap_(std::max(1e-3F * cell_, rounding * largest_coordinate(body))),
       kind_(body.triangles().size()),
-      rays_(points_of(body), corners_of(body)) {}
+      rays_(points_of(body), corners_of(body), HitFilters::off) {}
 
 bool FleshSurface::lies_inside(std::uint32_t triangle, float u, float v) const {
     const BodyTriangle& t = body_->triangles()[triangle];

@@ -13,7 +13,7 @@ constexpr int max_iterations = 2000;
 constexpr std::size_t sum_block = 256;
 /// Decay times cell below which a field counts as constant: keeps the system definite without absorption.
 constexpr double least_decay = 1e-5;
-/// Of the preconditioner's sweeps; 1 is Gauss-Seidel. Takes a sixth of the iterations away on heads.
+/// Of the preconditioner's sweeps: between 1, which is Gauss-Seidel, and 2.
 constexpr float over_relaxation = 1.3F;
 
 using LaneSum = std::array<double, lane_count>;
