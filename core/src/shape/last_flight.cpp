@@ -4,12 +4,11 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <numbers>
 #include <optional>
 
 #include "numerics/job.h"
 #include "numerics/parallel_blocks.h"
+#include "shape/cosine_direction.h"
 #include "shape/random_numbers.h"
 #include "shape/surface_optics.h"
 
@@ -27,24 +26,6 @@ constexpr float least_weight = 0.05F;
 constexpr float least_part = 1e-3F;
 constexpr float negligible_weight = 1e-6F;
 constexpr std::size_t sites_per_block = 64;
-
-/// Right-handed frame about a unit axis (T. Duff et al., "Building an orthonormal basis, revisited", JCGT
-/// 6(1), 2017).
-glm::mat3 frame_about(const glm::vec3& axis) {
-    const float sign = std::copysign(1.0F, axis.z);
-    const float a = -1 / (sign + axis.z);
-    const float b = axis.x * axis.y * a;
-    return {{1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x},
-            {b, sign + axis.y * axis.y * a, -axis.y},
-            axis};
-}
-
-glm::vec3 cosine_direction(const glm::vec3& axis, float u, float v) {
-    const float radius = std::sqrt(u);
-    const float angle = 2 * std::numbers::pi_v<float> * v;
-    return frame_about(axis) *
-           glm::vec3(radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1 - u));
-}
 
 float largest(const Lanes& weight) {
     return std::max({weight[0], weight[1], weight[2], weight[3]});
