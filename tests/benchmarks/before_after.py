@@ -144,6 +144,20 @@ class Cases:
         excluded = "excluded" if "excluded" in (visible.__doc__ or "") else "without"
         return lambda: visible(lights, vertices, normals, **{excluded: [0]}).mean
 
+    def shape(self):
+        """A berry of 12 mm."""
+        vertices, _, triangles = self.ball(8_000, 0.006)
+        flesh = {"absorption": (0.03, 0.17, 0.48), "reduced_scattering": (0.7, 0.9, 1.0), "refractive_index": 1.0}
+        return self.sg.Shape(vertices, triangles, **flesh, unit_mm=1000.0, threads=1)
+
+    def shape_first_light(self):
+        lights = self.lights("POINT", radius=0.05, count=1)
+        return lambda: self.shape().light(lights, reentries=0).exitance
+
+    def shape_16_lights(self):
+        lights, shape = self.lights("POINT", "SPOT", radius=0.05), self.shape()
+        return lambda: shape.light(lights, reentries=0).exitance
+
     def object_irradiance(self):
         lights = self.lights("POINT", "SPOT", "SUN", "AREA", count=64)
         irradiance = self.named("object_irradiance", "irradiance")
@@ -170,7 +184,7 @@ class Cases:
 def case_names():
     """(name, bound to one processor)."""
     methods = [name for name, value in vars(Cases).items() if callable(value) and not name.startswith("_")]
-    helpers = {"named", "directions", "lights", "light", "ball", "surface"}
+    helpers = {"named", "directions", "lights", "light", "ball", "surface", "shape"}
     for name in methods:
         if name not in helpers:
             yield name, True

@@ -101,7 +101,7 @@ bool is_wanted(void* job, double) {
 }
 
 void add_triangles(RTCDevice device, RTCScene scene, std::span<const glm::dvec3> points,
-                   std::span<const glm::uvec3> corners) {
+                   std::span<const glm::uvec3> corners, HitFilters filters) {
     const Owned<RTCGeometry> owner(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
     RTCGeometry geometry = owner.get();
     auto* to_point = static_cast<float*>(rtcSetNewGeometryBuffer(
@@ -115,8 +115,10 @@ void add_triangles(RTCDevice device, RTCScene scene, std::span<const glm::dvec3>
     for (const glm::uvec3& t : corners) {
         for (int k = 0; k < 3; ++k) *to_corner++ = t[k];
     }
-    rtcSetGeometryOccludedFilterFunction(geometry, reject_excluded);
-    rtcSetGeometryIntersectFilterFunction(geometry, show_to_visitor);
+    if (filters == HitFilters::on) {
+        rtcSetGeometryOccludedFilterFunction(geometry, reject_excluded);
+        rtcSetGeometryIntersectFilterFunction(geometry, show_to_visitor);
+    }
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
 }
@@ -231,13 +233,14 @@ struct EmbreeTriangles::Handles {
         rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED) != 0;
 };
 
-EmbreeTriangles::EmbreeTriangles(std::span<const glm::dvec3> points, std::span<const glm::uvec3> corners)
+EmbreeTriangles::EmbreeTriangles(std::span<const glm::dvec3> points, std::span<const glm::uvec3> corners,
+                                 HitFilters filters)
     : handles_(std::make_shared<Handles>()) {
     RTCDevice device = handles_->device.get();
     RTCScene scene = handles_->scene.get();
     // Robust: no ray slips through between two triangles that share an edge.
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    if (!corners.empty()) add_triangles(device, scene, points, corners);
+    if (!corners.empty()) add_triangles(device, scene, points, corners, filters);
     Job* const job = Job::current();
     if (job != nullptr) rtcSetSceneProgressMonitorFunction(scene, is_wanted, job);
     rtcCommitScene(scene);

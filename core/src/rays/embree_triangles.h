@@ -36,6 +36,8 @@ struct RaySegment {
 /// matter; infinity for no limit. Must not throw.
 using HitVisitor = std::function<float(float distance, std::uint32_t triangle)>;
 
+enum class HitFilters : std::uint8_t { off, on };
+
 /// Triangles in Embree 3 or 4. The only file that includes Embree. Single precision: coordinates should lie
 /// about the origin, at about the size of 1. All that is const may be called from many threads at once. Copies
 /// share the structure.
@@ -43,7 +45,9 @@ class EmbreeTriangles {
   public:
     /// Copies the triangles and builds the acceleration structure. No ray slips through between two that
     /// share an edge. Throws as require_embree, and std::runtime_error where Embree fails.
-    EmbreeTriangles(std::span<const glm::dvec3> points, std::span<const glm::uvec3> corners);
+    /// @param filters  whether hits can be visited and triangles excluded, which makes every ray slower
+    EmbreeTriangles(std::span<const glm::dvec3> points, std::span<const glm::uvec3> corners,
+                    HitFilters filters = HitFilters::on);
 
     /// Visits all triangles that a ray crosses from a distance on, either side of them, in one traversal;
     /// those beyond the limits that the visitor gives may be left out. A ray through an edge may hit both

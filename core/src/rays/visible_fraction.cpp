@@ -17,6 +17,12 @@ constexpr double sharp = 1e-6;
 
 }  // namespace
 
+double LightSampler::sine_at(const PreparedLight& light, double distance) {
+    if (light.kind() == LightKind::sun) return light.sin_sun_radius();
+    if (light.kind() == LightKind::area) return light.area_scale() / std::max(distance, min_light_distance);
+    return light.ball_term(distance).sin_radius;
+}
+
 LightSampler::LightSampler(const PreparedLight& light, const glm::dvec3& point, const glm::dvec3& normal)
     : light_(&light),
       point_(point),
@@ -24,22 +30,21 @@ LightSampler::LightSampler(const PreparedLight& light, const glm::dvec3& point, 
       to_center_(light.to_light(point)),
       distance_(light.distance(point)) {
     if (light.kind() == LightKind::area) {
-        sine_ = light.area_scale() / std::max(distance_, min_light_distance);
         is_sharp_ = 2.0 * light.area_scale() <= sharp * distance_;
         return;
     }
+    double sine = light.sin_sun_radius();
     if (light.kind() == LightKind::sun) {
-        sine_ = light.sin_sun_radius();
         distance_ = std::numeric_limits<double>::infinity();
     } else {
         const PreparedLight::BallTerm ball = light.ball_term(distance_);
-        sine_ = ball.sin_radius;
+        sine = ball.sin_radius;
         inside_ = ball.inside;
     }
-    is_sharp_ = sine_ <= sharp;
+    is_sharp_ = sine <= sharp;
     if (is_sharp_) return;
     frame_ = frame_around(inside_ ? normal : to_center_);
-    const double sin_sq = inside_ ? 1.0 : std::min(1.0, sine_ * sine_);
+    const double sin_sq = inside_ ? 1.0 : std::min(1.0, sine * sine);
     // 1 - cos of a small angle, without the cancellation.
     cap_height_ = sin_sq / (1.0 + std::sqrt(1.0 - sin_sq));
 }

@@ -24,8 +24,8 @@ class LightSampler {
     /// @param normal  unit length; only looked at within a ball
     LightSampler(const PreparedLight& light, const glm::dvec3& point, const glm::dvec3& normal);
 
-    /// Sine of the angular radius of the light, about; above 1 where it is all around.
-    double sine() const { return sine_; }
+    /// Sine of the angular radius of a light whose center is this far away, about; above 1 where it is all around.
+    static double sine_at(const PreparedLight& light, double distance);
     /// Whether it is so small that one ray, to its center, stands for all.
     bool is_sharp() const { return is_sharp_; }
     LightSample center() const { return {to_center_, distance_, 1.0}; }
@@ -47,7 +47,6 @@ class LightSampler {
     glm::dvec3 normal_;
     glm::dvec3 to_center_;
     double distance_;  ///< to the center; infinite for a sun
-    double sine_;
     bool is_sharp_;
     bool inside_ = false;    ///< of a ball
     glm::dmat3 frame_{1.0};  ///< about the middle of a sun's or ball's directions

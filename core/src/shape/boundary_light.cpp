@@ -1,6 +1,7 @@
 #include "shape/boundary_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -16,6 +17,8 @@ constexpr float max_aside_sq = 1.2F;
 /// over the edge of a shadow, by up to four tenths of the error in blue; and distance along the surface alone takes
 /// light over a narrow fold from one wall to the other, which doubled the error in blue.
 constexpr float narrowness = 20;
+/// Squared distances beyond the nearest, in cells, whose weight of 5e-6 is nothing.
+constexpr float max_farther_sq = 0.6F;
 
 /// Decay times height up to which a field is followed beyond the surface.
 constexpr double max_rise = 1.5;
@@ -57,28 +60,48 @@ struct Lean {
 };
 
 std::vector<Lean> find_leans(const Body& body, const VoxelGrid& grid, std::span<const BoundarySample> samples,
-                             std::vector<std::int32_t>& index, std::uint32_t& ghosts) {
+                             std::vector<std::int32_t>& index, std::vector<float>& nearest_sq) {
     std::vector<Lean> leans;
     const float h = grid.cell();
+    std::array<glm::ivec3, 27> steps;
+    std::array<std::ptrdiff_t, 27> strides{};
+    for (int n = 0; n < 27; ++n) {
+        const auto k = static_cast<std::size_t>(n);
+        steps[k] = {n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1};
+        strides[k] = static_cast<std::ptrdiff_t>(grid.linear(steps[k] + 1)) -
+                     static_cast<std::ptrdiff_t>(grid.linear(glm::ivec3(1)));
+    }
     for (std::uint32_t i = 0; i < samples.size(); ++i) {
         stop_if_asked(i);
         const BoundarySample& s = samples[i];
         const BodyTriangle& t = body.triangles()[s.triangle];
         const glm::vec3 point = body.at(t, s.u, s.v);
         const glm::ivec3 middle = grid.voxel_of(point);
-        for (int n = 0; n < 27; ++n) {
-            const glm::ivec3 voxel = middle + glm::ivec3(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
-            if (grid.at(voxel) != VoxelGrid::outside) continue;
-            const glm::vec3 off = grid.center_of(voxel) - point;
+        const glm::vec3 to_middle = grid.center_of(middle) - point;
+        const bool is_amid = grid.has(middle - 1) && grid.has(middle + 1);
+        for (std::size_t n = 0; n < steps.size(); ++n) {
+            if (!is_amid && !grid.has(middle + steps[n])) continue;
+            const auto voxel =
+                static_cast<std::size_t>(static_cast<std::ptrdiff_t>(grid.linear(middle)) + strides[n]);
+            if (grid.index()[voxel] != VoxelGrid::outside) continue;
+            const glm::vec3 off = to_middle + glm::vec3(steps[n]) * h;
             const float height = std::max(0.0F, glm::dot(off, t.normal));
             const float aside_sq = glm::dot(off, off) - height * height;
             if (aside_sq > max_aside_sq * h * h) continue;
-            std::int32_t& number = index[grid.linear(voxel)];
-            if (number < 0) number = static_cast<std::int32_t>(grid.size() + ghosts++);
-            leans.push_back({static_cast<std::uint32_t>(number) - grid.size(), i, s.area,
-                             glm::dot(off, off) / (h * h), height});
+            std::int32_t& number = index[voxel];
+            if (number < 0) {
+                number = static_cast<std::int32_t>(grid.size() + nearest_sq.size());
+                nearest_sq.push_back(std::numeric_limits<float>::infinity());
+            }
+            const std::uint32_t ghost = static_cast<std::uint32_t>(number) - grid.size();
+            const float distance_sq = glm::dot(off, off) / (h * h);
+            if (distance_sq > nearest_sq[ghost] + max_farther_sq) continue;
+            nearest_sq[ghost] = std::min(nearest_sq[ghost], distance_sq);
+            leans.push_back({ghost, i, s.area, distance_sq, height});
         }
     }
+    std::erase_if(
+        leans, [&](const Lean& lean) { return lean.distance_sq > nearest_sq[lean.ghost] + max_farther_sq; });
     return leans;
 }
 
@@ -167,8 +190,9 @@ SparseRows<LanePair> boundary_light(const Body& body, const VoxelGrid& grid,
 Ghosts make_ghosts(const Body& body, const VoxelGrid& grid, std::span<const BoundarySample> samples,
                    const LaneMedium& medium) {
     Ghosts result{grid.index(), {}, {}};
-    std::uint32_t count = 0;
-    const std::vector<Lean> leans = find_leans(body, grid, samples, result.index, count);
+    std::vector<float> nearest_sq;
+    const std::vector<Lean> leans = find_leans(body, grid, samples, result.index, nearest_sq);
+    const auto count = static_cast<std::uint32_t>(nearest_sq.size());
     const Groups by_ghost(leans.size(), count, [&](std::uint32_t i) { return leans[i].ghost; });
     const SurfaceLinks links(medium, max_sample_height * static_cast<double>(grid.cell()));
     const RiseTable rises(medium, static_cast<double>(grid.cell()));
@@ -176,10 +200,8 @@ Ghosts make_ghosts(const Body& body, const VoxelGrid& grid, std::span<const Boun
     RowSums<Lanes> of_light(vertices_of(body));
     for (std::uint32_t g = 0; g < count; ++g) {
         stop_if_asked(g);
-        float nearest_sq = std::numeric_limits<float>::infinity();
-        for (const std::uint32_t i : by_ghost.at(g)) nearest_sq = std::min(nearest_sq, leans[i].distance_sq);
         const auto weight_of = [&](const Lean& lean) {
-            return lean.area * std::exp(narrowness * (nearest_sq - lean.distance_sq));
+            return lean.area * std::exp(narrowness * (nearest_sq[g] - lean.distance_sq));
         };
         float total = 0;
         for (const std::uint32_t i : by_ghost.at(g)) total += weight_of(leans[i]);

@@ -14,12 +14,13 @@ namespace {
 
 constexpr int edge = 3;  ///< of a block, in cells
 constexpr int block_cells = edge * edge * edge;
+static_assert(block_cells <= PointCluster::capacity);
 /// Length of a triangle's parts, and how far from their middle cells count as touched, in cells: what a line
 /// between two neighboring centers crosses is found in one of their cells.
 constexpr float part_cells = 0.3F;
 constexpr float touch_cells = 0.25F;
 /// A winding number this far from 1/2 is that of all cells it stands for.
-constexpr double certain = 0.25;
+constexpr float certain = 0.25F;
 constexpr int max_parts = 400;
 
 void touch(const VoxelGrid& grid, const glm::vec3& point, std::vector<std::uint8_t>& touched) {
@@ -51,67 +52,69 @@ std::vector<std::uint8_t> touched_voxels(const Body& body, const VoxelGrid& grid
     return touched;
 }
 
-/// Answers the voxels of one block.
-class BlockAsker {
+/// Answers voxels, block by block.
+class FleshAsker {
   public:
-    BlockAsker(const FleshSurface& surface, const VoxelGrid& grid, std::span<const std::uint8_t> wanted,
+    FleshAsker(const FleshSurface& surface, const VoxelGrid& grid, std::span<const std::uint8_t> wanted,
                std::span<const std::uint8_t> touched, std::span<std::uint8_t> flesh)
         : surface_(surface), grid_(grid), wanted_(wanted), touched_(touched), flesh_(flesh) {}
 
+    /// Those of a block; those that follow each other should be neighbors.
     void ask(const glm::ivec3& corner) {
-        corner_ = corner;
-        bool any = false;
+        Block block;
+        bool is_any_touched = false;
         for (int c = 0; c < block_cells; ++c) {
-            const glm::ivec3 voxel = voxel_of(c);
-            const bool has = grid_.has(voxel);
-            const std::size_t i = has ? grid_.linear(voxel) : 0;
-            any = any || (has && wanted_[i] != 0);
-            open_[static_cast<std::size_t>(c)] = has && touched_[i] == 0;
-            done_[static_cast<std::size_t>(c)] = !has;
+            const glm::ivec3 voxel = corner + glm::ivec3(c / (edge * edge), c / edge % edge, c % edge);
+            if (!grid_.has(voxel)) continue;
+            const std::size_t i = grid_.linear(voxel);
+            is_any_touched = is_any_touched || touched_[i] != 0;
+            if (wanted_[i] == 0) continue;
+            block.voxels[block.count] = i;
+            block.centers[block.count++] = grid_.center_of(voxel);
         }
-        if (!any) return;
-        for (int c = 0; c < block_cells; ++c) {
-            if (done_[static_cast<std::size_t>(c)]) continue;
-            if (open_[static_cast<std::size_t>(c)]) {
-                answer_alike(c);
+        if (block.count == 0) return;
+        if (is_any_touched) {
+            answer_each(block);
+        } else {
+            untouched_.push_back(block);
+            if (untouched_.size() == blocks_at_once) answer_untouched();
+        }
+    }
+
+    /// Blocks that nothing touches: one number is that of a whole block, where it is certain.
+    void answer_untouched() {
+        if (untouched_.empty()) return;
+        std::array<glm::vec3, blocks_at_once> middles{};
+        std::array<float, blocks_at_once> winding{};
+        for (std::size_t b = 0; b < untouched_.size(); ++b)
+            middles[b] = untouched_[b].centers[untouched_[b].count / 2];
+        surface_.tree().windings(std::span(middles).first(untouched_.size()), winding);
+        for (std::size_t b = 0; b < untouched_.size(); ++b) {
+            const Block& block = untouched_[b];
+            if (std::abs(winding[b] - 0.5F) > certain) {
+                for (std::size_t n = 0; n < block.count; ++n)
+                    flesh_[block.voxels[n]] = winding[b] > 0.5F ? 1 : 0;
             } else {
-                answer(c, winding(c) > 0.5);
+                answer_each(block);
             }
         }
+        untouched_.clear();
     }
 
   private:
-    glm::ivec3 voxel_of(int c) const {
-        return corner_ + glm::ivec3(c / (edge * edge), c / edge % edge, c % edge);
-    }
-    double winding(int c) const { return surface_.tree().winding(grid_.center_of(voxel_of(c))); }
-    void answer(int c, bool is_flesh) {
-        done_[static_cast<std::size_t>(c)] = true;
-        const std::size_t i = grid_.linear(voxel_of(c));
-        if (wanted_[i] != 0) flesh_[i] = is_flesh ? 1 : 0;
-    }
+    static constexpr std::size_t blocks_at_once = 8;
 
-    /// A cell that nothing touches, and those that hang together with it.
-    void answer_alike(int first) {
-        alike_.assign(1, first);
-        done_[static_cast<std::size_t>(first)] = true;
-        for (std::size_t next = 0; next < alike_.size(); ++next) {
-            const int c = alike_[next];
-            const std::array<int, 3> at = {c / (edge * edge), c / edge % edge, c % edge};
-            const std::array<int, 3> stride = {edge * edge, edge, 1};
-            for (std::size_t d = 0; d < 3; ++d) {
-                for (const int sign : {-1, 1}) {
-                    if (at[d] + sign < 0 || at[d] + sign >= edge) continue;
-                    const auto other = static_cast<std::size_t>(c + sign * stride[d]);
-                    if (!open_[other] || done_[other]) continue;
-                    done_[other] = true;
-                    alike_.push_back(static_cast<int>(other));
-                }
-            }
-        }
-        const double middle = winding(alike_[alike_.size() / 2]);
-        const bool is_certain = std::abs(middle - 0.5) > certain;
-        for (const int c : alike_) answer(c, (is_certain ? middle : winding(c)) > 0.5);
+    /// What of a block is wanted.
+    struct Block {
+        std::size_t count = 0;
+        std::array<std::size_t, block_cells> voxels;
+        std::array<glm::vec3, block_cells> centers;
+    };
+
+    void answer_each(const Block& block) {
+        std::array<float, block_cells> winding{};
+        surface_.tree().windings(std::span(block.centers).first(block.count), winding);
+        for (std::size_t n = 0; n < block.count; ++n) flesh_[block.voxels[n]] = winding[n] > 0.5F ? 1 : 0;
     }
 
     const FleshSurface& surface_;
@@ -119,10 +122,7 @@ class BlockAsker {
     std::span<const std::uint8_t> wanted_;
     std::span<const std::uint8_t> touched_;
     std::span<std::uint8_t> flesh_;
-    glm::ivec3 corner_{0};
-    std::array<bool, block_cells> open_{};
-    std::array<bool, block_cells> done_{};
-    std::vector<int> alike_;
+    std::vector<Block> untouched_;
 };
 
 }  // namespace
@@ -154,11 +154,11 @@ std::vector<std::uint8_t> find_flesh(const FleshSurface& surface, const VoxelGri
     const glm::ivec3 blocks = (grid.extent() + edge - 1) / edge;
     const auto count = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y);
     const auto work = [&](std::size_t begin, std::size_t end) {
-        BlockAsker asker(surface, grid, wanted, touched, flesh);
+        FleshAsker asker(surface, grid, wanted, touched, flesh);
         for (std::size_t b = begin; b < end; ++b) {
-            for (int z = 0; z < blocks.z; ++z)
-                asker.ask(glm::ivec3(static_cast<int>(b) / blocks.y, static_cast<int>(b) % blocks.y, z) *
-                          edge);
+            const glm::ivec3 first(static_cast<int>(b) / blocks.y, static_cast<int>(b) % blocks.y, 0);
+            for (int z = 0; z < blocks.z; ++z) asker.ask((first + glm::ivec3(0, 0, z)) * edge);
+            asker.answer_untouched();
         }
     };
     for_each_block(count, threads, work, {}, 8);

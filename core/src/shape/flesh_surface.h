@@ -64,6 +64,9 @@ class FleshSurface {
         return known != Kind::unknown ? known : find_kind(triangle);
     }
     Kind find_kind(std::uint32_t triangle) const;
+    Kind find_large_kind(std::uint32_t triangle) const;
+    /// Parts along an edge, each of which is asked.
+    int parts_of(std::uint32_t triangle) const;
 
     const Body* body_;
     TriangleTree tree_;

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <numbers>
 #include <optional>
 
 #include "numerics/job.h"
 #include "numerics/parallel_blocks.h"
+#include "shape/cosine_direction.h"
 #include "shape/random_numbers.h"
 #include "shape/surface_optics.h"
 
@@ -21,25 +20,15 @@ constexpr float max_optical_depth = 7;
 /// Steps along a ray, in cells.
 constexpr float step_cells = 0.6F;
 constexpr int max_bounces = 6;
-constexpr float least_weight = 1e-3F;
+/// A ray that carries less goes on by chance, and carries this much then.
+constexpr float least_weight = 0.05F;
+/// A step counts where at least this part of the cells about it is known.
+constexpr float least_part = 1e-3F;
+constexpr float negligible_weight = 1e-6F;
 constexpr std::size_t sites_per_block = 64;
 
-/// Right-handed frame about a unit axis (T. Duff et al., "Building an orthonormal basis, revisited", JCGT
-/// 6(1), 2017).
-glm::mat3 frame_about(const glm::vec3& axis) {
-    const float sign = std::copysign(1.0F, axis.z);
-    const float a = -1 / (sign + axis.z);
-    const float b = axis.x * axis.y * a;
-    return {{1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x},
-            {b, sign + axis.y * axis.y * a, -axis.y},
-            axis};
-}
-
-glm::vec3 cosine_direction(const glm::vec3& axis, float u, float v) {
-    const float radius = std::sqrt(u);
-    const float angle = 2 * std::numbers::pi_v<float> * v;
-    return frame_about(axis) *
-           glm::vec3(radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1 - u));
+float largest(const Lanes& weight) {
+    return std::max({weight[0], weight[1], weight[2], weight[3]});
 }
 
 /// Traces the rays of sites into rows.
@@ -68,7 +57,11 @@ class FlightTracer {
           bend_(medium.lanes([&](const Sp3Medium& m) {
               const double x = m.decay[0] * static_cast<double>(grid.cell());
               return x * x / 6;
-          })) {}
+          })) {
+        for (std::size_t c = 0; c < corner_.size(); ++c)
+            corner_[c] = grid.linear(
+                {static_cast<int>(c >> 2U), static_cast<int>(c >> 1U & 1U), static_cast<int>(c & 1U)});
+    }
 
     void trace(const SurfaceSites& all, std::uint32_t index, LastFlight& rows) {
         const Site& site = all.sites()[index];
@@ -139,7 +132,7 @@ class FlightTracer {
             collect(ray, std::min(length, max_length_), weight);
             if (!hit) return;
             weight = weight * decay(length);
-            if (std::max({weight[0], weight[1], weight[2], weight[3]}) < least_weight * least_weight) return;
+            if (largest(weight) < negligible_weight) return;
             const BodyTriangle& t = body_.triangles()[hit->triangle];
             const float reflected = index_n_ > 1 ? fresnel(ray.direction, t.normal) : inside_reflectance_;
             const auto n_sq = static_cast<float>(index_n_ * index_n_);
@@ -148,10 +141,14 @@ class FlightTracer {
             for (int k = 0; k < 3; ++k)
                 light_.at(t.corners[k]) += weight * (entering * at[static_cast<std::size_t>(k)]);
             weight = weight * reflected;
-            if (std::max({weight[0], weight[1], weight[2], weight[3]}) < least_weight) return;
+            const std::uint64_t salt = 3 * (seed * max_bounces + static_cast<std::uint64_t>(bounce));
+            const float going_on = largest(weight) / least_weight;
+            if (going_on < 1) {
+                if (!(uniform_of(salt + 2) < going_on)) return;
+                weight = weight * (1 / going_on);
+            }
             const glm::vec3 inward = glm::dot(t.normal, ray.direction) < 0 ? t.normal : -t.normal;
             const glm::vec3 start = ray.origin + ray.direction * length + inward * surface_.gap();
-            const std::uint64_t salt = seed * max_bounces * 2 + static_cast<std::uint64_t>(bounce) * 2;
             const glm::vec3 next = index_n_ > 1
                                        ? ray.direction - inward * (2 * glm::dot(ray.direction, inward))
                                        : cosine_direction(inward, uniform_of(salt), uniform_of(salt + 1));
@@ -190,24 +187,31 @@ class FlightTracer {
             const glm::vec3 low = glm::floor(at);
             const glm::vec3 f = at - low;
             const glm::ivec3 voxel(low);
+            // All eight lie in the box where the first and the last do.
+            const bool is_in_box = grid_.has(voxel) && grid_.has(voxel + 1);
+            const std::size_t first = is_in_box ? grid_.linear(voxel) : 0;
             std::array<std::int32_t, 8> cell;
             std::array<float, 8> part;
             float sum = 0;
             for (int c = 0; c < 8; ++c) {
-                const glm::ivec3 corner = voxel + glm::ivec3(c >> 2, (c >> 1) & 1, c & 1);
                 const auto i = static_cast<std::size_t>(c);
-                cell[i] = grid_.has(corner) ? ghosts_.index[grid_.linear(corner)] : VoxelGrid::unknown;
+                if (is_in_box) {
+                    cell[i] = ghosts_.index[first + corner_[i]];
+                } else {
+                    const glm::ivec3 corner = voxel + glm::ivec3(c >> 2, (c >> 1) & 1, c & 1);
+                    cell[i] = grid_.has(corner) ? ghosts_.index[grid_.linear(corner)] : VoxelGrid::unknown;
+                }
                 part[i] = cell[i] < 0 ? 0.0F
                                       : ((c & 4) != 0 ? f.x : 1 - f.x) * ((c & 2) != 0 ? f.y : 1 - f.y) *
                                             ((c & 1) != 0 ? f.z : 1 - f.z);
                 sum += part[i];
             }
-            const Lanes deposit = (weight - left) * interpolation_factor(f);
+            const Lanes left_in_step = weight - left;
             weight = left;
-            if (sum < least_weight) continue;
+            if (sum < least_part) continue;
+            const Lanes deposit = left_in_step * interpolation_factor(f) * (1 / sum);
             for (std::size_t i = 0; i < 8; ++i) {
-                if (part[i] > 0)
-                    fluence_.at(static_cast<std::uint32_t>(cell[i])) += deposit * (part[i] / sum);
+                if (part[i] > 0) fluence_.at(static_cast<std::uint32_t>(cell[i])) += deposit * part[i];
             }
         }
     }
@@ -215,8 +219,7 @@ class FlightTracer {
     void store(std::uint32_t index, LastFlight& rows) {
         const float per_ray = 1 / static_cast<float>(options_.rays);
         fluence_.take([&](std::uint32_t column, const Lanes& value) {
-            const float largest = std::max({value[0], value[1], value[2], value[3]}) * per_ray;
-            const float kept = std::min(1.0F, largest / options_.small_entry);
+            const float kept = std::min(1.0F, largest(value) * per_ray / options_.small_entry);
             const std::uint64_t salt = (static_cast<std::uint64_t>(index) << 32U) + column;
             if (uniform_of(salt) < kept)
                 rows.of_fluence.add(column, pack(value * scattered_ * (per_ray / kept)));
@@ -247,6 +250,7 @@ class FlightTracer {
     float max_extinction_;
     float center_;
     Lanes bend_;
+    std::array<std::size_t, 8> corner_{};  ///< of a cube of cells, from the first one's place in the grid
 };
 
 }  // namespace

@@ -22,8 +22,8 @@ class Sp3System {
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(class_of_.size()); }
 
-    /// Solves for the modes by conjugate gradients with a symmetric Gauss-Seidel sweep over the cells as
-    /// preconditioner; each node stops when its residual, in the preconditioner's norm, is below
+    /// Solves for the modes by conjugate gradients with a symmetric, over-relaxed Gauss-Seidel sweep over the cells
+    /// as preconditioner; each node stops when its residual, in the preconditioner's norm, is below
     /// the tolerance times the right side's.
     /// @param right  one per cell
     /// @param modes  one per cell and one of zeros at the end
@@ -36,7 +36,7 @@ class Sp3System {
     }
 
   private:
-    /// The diagonal block of a cell and its inverse, symmetric.
+    /// The diagonal block of a cell and its inverse times the relaxation, symmetric.
     struct Block {
         Lanes d11, d12, d22;
         Lanes i11, i12, i22;

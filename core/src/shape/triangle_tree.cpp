@@ -83,6 +83,8 @@ TriangleTree::TriangleTree(const Body& body) : body_(body) {
     }
     if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()));
     centers_ = {};
+    place_.resize(order_.size());
+    for (std::uint32_t k = 0; k < order_.size(); ++k) place_[order_[k]] = k;
     corners_.reserve(order_.size());
     for (const std::uint32_t i : order_)
         corners_.push_back(
@@ -108,7 +110,7 @@ void TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
         low = glm::min(low, centers_[order_[i]]);
         high = glm::max(high, centers_[order_[i]]);
     }
-    Node node{};
+    TriangleNode node{};
     node.center = center / area;
     node.dipole = dipole / (4 * std::numbers::pi);
     node.begin = begin;
@@ -140,7 +142,7 @@ void TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
 double TriangleTree::winding(const glm::vec3& point) const {
     double sum = 0;
     for (std::size_t i = 0; i < nodes_.size();) {
-        const Node& node = nodes_[i];
+        const TriangleNode& node = nodes_[i];
         const glm::vec3 to = node.center - point;
         const float distance_sq = glm::dot(to, to);
         if (distance_sq > node.far_sq) {
@@ -159,6 +161,18 @@ double TriangleTree::winding(const glm::vec3& point) const {
         ++i;
     }
     return sum;
+}
+
+void TriangleTree::windings(std::span<const glm::vec3> points, std::span<float> result) const {
+    PointCluster cluster(points);
+    sum_windings(nodes_, corners_, cluster);
+    std::copy_n(cluster.winding.begin(), points.size(), result.begin());
+}
+
+std::span<const std::uint32_t> TriangleTree::neighborhood(std::uint32_t triangle) const {
+    constexpr std::size_t size = PointCluster::capacity / 2;
+    const std::size_t begin = place_[triangle] / size * size;
+    return std::span(order_).subspan(begin, std::min(size, order_.size() - begin));
 }
 
 std::optional<SurfacePoint> TriangleTree::nearest(const glm::vec3& point, const glm::vec3& facing) const {
@@ -184,7 +198,7 @@ std::optional<SurfacePoint> TriangleTree::nearest(const glm::vec3& point, const 
     while (count > 0) {
         const Open next = open[--count];
         if (next.bound > best_distance + tie) continue;
-        const Node& node = nodes_[next.node];
+        const TriangleNode& node = nodes_[next.node];
         if (!node.is_leaf) {
             Open near{next.node + 1, bound(next.node + 1)};
             Open far{nodes_[near.node].skip, bound(nodes_[near.node].skip)};

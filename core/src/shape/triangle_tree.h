@@ -5,9 +5,11 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "shape/body.h"
+#include "shape/winding_kernel.h"
 
 namespace skinglow::detail {
 
@@ -31,27 +33,26 @@ class TriangleTree {
     /// exact.
     double winding(const glm::vec3& point) const;
 
+    /// The same of some points that lie near each other, at most PointCluster::capacity, in a fraction of the time. A node
+    /// counts as far where it is far from all of them.
+    void windings(std::span<const glm::vec3> points, std::span<float> result) const;
+
+    /// Some triangles that lie near a triangle, itself among them; of each of them the same ones.
+    std::span<const std::uint32_t> neighborhood(std::uint32_t triangle) const;
+
     /// The nearest point of the triangles that face along a normal (any, where it is 0); none where no
     /// triangle does. Of equally near ones the first in the tree.
     std::optional<SurfacePoint> nearest(const glm::vec3& point, const glm::vec3& facing) const;
 
   private:
-    struct Node {
-        glm::vec3 center;          ///< area-weighted
-        float radius;              ///< of the ball about it that holds all triangles, mm
-        glm::vec3 dipole;          ///< sum of area times normal, over 4 pi
-        float far_sq;              ///< squared distance from which the dipole does
-        std::uint32_t begin, end;  ///< of its triangles in order_
-        std::uint32_t skip;        ///< the node after this one's descendants
-        bool is_leaf;
-    };
     void build(std::uint32_t begin, std::uint32_t end);
 
     const Body& body_;
     std::vector<std::uint32_t> order_;
+    std::vector<std::uint32_t> place_;               ///< of each triangle in order_
     std::vector<glm::vec3> centers_;                 ///< of the triangles, while the tree is built
     std::vector<std::array<glm::vec3, 3>> corners_;  ///< of the triangles, as in order_
-    std::vector<Node> nodes_;                        ///< depth first
+    std::vector<TriangleNode> nodes_;
 };
 
 }  // namespace skinglow::detail

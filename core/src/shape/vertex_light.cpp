@@ -10,10 +10,10 @@
 
 #include "geometry/vector.h"
 #include "numerics/parallel_blocks.h"
+#include "radiometry/irradiance_sum.h"
 #include "radiometry/spherical_harmonics.h"
 #include "rays/direction_sampling.h"
 #include "rays/occluder_scene.h"
-#include "rays/visible_fraction.h"
 
 namespace skinglow::detail {
 namespace {
@@ -51,8 +51,7 @@ VertexLight::VertexLight(const FleshSurface& surface, std::span<const glm::dvec3
         if (wanted[v] != 0) wanted_.push_back(v);
     }
     sort_by_position();
-    receivers_.reserve(wanted_.size());
-    for (const std::uint32_t v : wanted_) receivers_.push_back(receiver_of(v));
+    for (const std::uint32_t v : wanted_) add_receiver(v);
     for (const BodyTriangle& t : surface.body().triangles()) {
         if ((wanted[t.corners.x] | wanted[t.corners.y] | wanted[t.corners.z]) != 0)
             triangles_.push_back(t.corners);
@@ -83,13 +82,14 @@ void VertexLight::sort_by_position() {
     for (std::size_t i = 0; i < wanted_.size(); ++i) wanted_[i] = order[i].second;
 }
 
-VertexLight::Receiver VertexLight::receiver_of(std::uint32_t vertex) const {
+void VertexLight::add_receiver(std::uint32_t vertex) {
     const Site& site = sites_.sites()[sites_.site_of()[vertex]];
     const float lift = std::max(lift_mm, 4 * surface_.gap());
     const glm::dvec3 normal(site.normal);
     const double size = glm::length(normal);
-    return {vertices_[vertex], site.position + site.normal * lift,
-            size > 0 ? normal / size : glm::dvec3(0.0)};
+    points_.push_back(vertices_[vertex]);
+    normals_.push_back(size > 0 ? normal / size : glm::dvec3(0.0));
+    origins_.push_back(site.position + site.normal * lift);
 }
 
 float VertexLight::to_mm(double distance) const {
@@ -97,38 +97,37 @@ float VertexLight::to_mm(double distance) const {
         std::min(distance * unit_mm_, static_cast<double>(std::numeric_limits<float>::max())));
 }
 
-bool VertexLight::passes_occluders(const Receiver& receiver, const glm::dvec3& direction,
+bool VertexLight::passes_occluders(const glm::dvec3& point, const glm::dvec3& direction,
                                    double distance) const {
     if (options_.occluders == nullptr) return true;
     const RigidMotion& frame = options_.to_occluders;
-    return !options_.occluders->scene().occluded(frame.point(receiver.point), frame.direction(direction),
-                                                 distance, excluded_);
+    return !options_.occluders->scene().occluded(frame.point(point), frame.direction(direction), distance,
+                                                 excluded_);
 }
 
 /// Finds what some receivers see of a light.
-/// @param is_asked    is_asked(receiver's index): whether it is one of them
-/// @param samples_of  samples_of(receiver's index, sampler): how many rays go to the light from it
-template <typename Asked, typename Samples>
+/// @param is_asked  is_asked(receiver's index): whether it is one of them
+/// @param samples   rays to the light from each
+template <typename Asked>
 void VertexLight::find_fractions(const PreparedLight& light, std::size_t begin, std::size_t end,
-                                 const Asked& is_asked, const Samples& samples_of,
-                                 std::span<float> seen) const {
-    struct Ray {
-        std::size_t receiver;
-        double weight;
-        LightSample sample;
-    };
+                                 const Asked& is_asked, int samples, std::span<float> seen) const {
     std::vector<Ray> rays;
-    std::vector<RaySegment> segments;
     for (std::size_t i = begin; i < end; ++i) {
         if (!is_asked(i)) continue;
-        const Receiver& receiver = receivers_[i];
-        const LightSampler sampler(light, receiver.point, receiver.normal);
-        for_each_light_sample(
-            sampler, wanted_[i], samples_of(i, sampler), [&](const LightSample& ray, double weight) {
-                rays.push_back({i, weight, ray});
-                segments.push_back({receiver.origin, ray.direction, 0, to_mm(ray.distance)});
-            });
+        const LightSampler sampler(light, points_[i], normals_[i]);
+        for_each_light_sample(sampler, wanted_[i], samples, [&](const LightSample& ray, double weight) {
+            rays.push_back({i, weight, ray});
+        });
     }
+    trace(rays, seen);
+}
+
+/// @param rays  those of a receiver after each other
+void VertexLight::trace(std::span<const Ray> rays, std::span<float> seen) const {
+    std::vector<RaySegment> segments;
+    segments.reserve(rays.size());
+    for (const Ray& ray : rays)
+        segments.push_back({origins_[ray.receiver], ray.sample.direction, 0, to_mm(ray.sample.distance)});
     std::vector<std::uint8_t> is_blocked(rays.size());
     surface_.block(segments, is_blocked);
     for (std::size_t r = 0; r < rays.size();) {
@@ -138,7 +137,7 @@ void VertexLight::find_fractions(const PreparedLight& light, std::size_t begin, 
         for (; r < rays.size() && rays[r].receiver == i; ++r) {
             all += rays[r].weight;
             if (is_blocked[r] == 0 &&
-                passes_occluders(receivers_[i], rays[r].sample.direction, rays[r].sample.distance))
+                passes_occluders(points_[i], rays[r].sample.direction, rays[r].sample.distance))
                 visible += rays[r].weight;
         }
         seen[wanted_[i]] = static_cast<float>(std::min(1.0, visible / all));
@@ -166,19 +165,30 @@ WhiteIrradiance VertexLight::of_light(const PreparedLight& light, bool has_shado
     std::vector<float> seen(vertices_.size(), no_light);
     std::vector<double> open(wanted_.size(), 0.0);
     std::vector<std::uint8_t> is_narrow(wanted_.size(), 0);
+    const RigLight white{0, light, glm::dvec3(1.0), 1.0, !light.dark()};
+    const IrradianceSum unshadowed(std::span(&white, 1), nullptr, area_tolerance);
     const auto first = [&](std::size_t begin, std::size_t end) {
+        std::vector<glm::dvec3> found(end - begin, glm::dvec3(0.0));
+        unshadowed.add(std::span(points_).subspan(begin, found.size()),
+                       std::span(normals_).subspan(begin, found.size()), found);
+        std::vector<Ray> to_center;
         for (std::size_t i = begin; i < end; ++i) {
-            const Receiver& receiver = receivers_[i];
-            if (receiver.normal == glm::dvec3(0.0)) continue;
-            open[i] = light.irradiance(receiver.point, receiver.normal, area_tolerance);
-            if (!has_shadows && open[i] > 0) seen[wanted_[i]] = 1;
+            open[i] = found[i - begin].x;
+            if (!(open[i] > 0)) continue;
+            if (!has_shadows) {
+                seen[wanted_[i]] = 1;
+                continue;
+            }
+            const double distance = light.distance(points_[i]);
+            if (!(LightSampler::sine_at(light, distance) < narrow)) continue;
+            is_narrow[i] = 1;
+            const double to_surface = light.soft_falloff() ? distance : distance - light.radius();
+            const bool is_sun = light.kind() == LightKind::sun;
+            to_center.push_back({i, 1.0, {light.to_light(points_[i]), is_sun ? unlimited : to_surface, 1.0}});
         }
-        const auto is_lit = [&](std::size_t i) { return has_shadows && open[i] > 0; };
-        const auto few = [&](std::size_t i, const LightSampler& sampler) {
-            is_narrow[i] = sampler.sine() < narrow ? 1 : 0;
-            return std::min(is_narrow[i] != 0 ? 1 : first_samples, options_.samples);
-        };
-        find_fractions(light, begin, end, is_lit, few, seen);
+        trace(to_center, seen);
+        const auto is_wide = [&](std::size_t i) { return has_shadows && open[i] > 0 && is_narrow[i] == 0; };
+        find_fractions(light, begin, end, is_wide, std::min(first_samples, options_.samples), seen);
     };
     for_each_block(wanted_.size(), options_.threads, first, {}, block);
     const std::vector<std::uint8_t> again =
@@ -188,16 +198,14 @@ WhiteIrradiance VertexLight::of_light(const PreparedLight& light, bool has_shado
         const auto has_steps = [&](std::size_t i) {
             return options_.samples > first_samples && is_narrow[i] != 0;
         };
-        const auto some = [&](std::size_t i, const LightSampler&) {
-            return has_steps(i) ? first_samples : options_.samples;
-        };
-        find_fractions(light, begin, end, is_asked, some, seen);
+        find_fractions(
+            light, begin, end, [&](std::size_t i) { return is_asked(i) && has_steps(i); }, first_samples,
+            seen);
         const auto is_in_part = [&](std::size_t i) {
             const float part = seen[wanted_[i]];
-            return is_asked(i) && has_steps(i) && part != 0 && part != 1;
+            return is_asked(i) && (!has_steps(i) || (part != 0 && part != 1));
         };
-        const auto all = [&](std::size_t, const LightSampler&) { return options_.samples; };
-        find_fractions(light, begin, end, is_in_part, all, seen);
+        find_fractions(light, begin, end, is_in_part, options_.samples, seen);
     };
     for_each_block(wanted_.size(), options_.threads, second, {}, block);
     WhiteIrradiance result{std::vector<float>(vertices_.size(), 0.0F)};
@@ -219,23 +227,22 @@ std::vector<glm::vec3> VertexLight::of_environment(const Environment& environmen
         std::vector<RaySegment> segments(directions.size());
         std::vector<std::uint8_t> is_blocked(directions.size());
         for (std::size_t i = begin; i < end; ++i) {
-            const Receiver& receiver = receivers_[i];
-            if (receiver.normal == glm::dvec3(0.0)) continue;
-            const glm::dmat3 frame = frame_around(receiver.normal);
+            if (normals_[i] == glm::dvec3(0.0)) continue;
+            const glm::dmat3 frame = frame_around(normals_[i]);
             // The harmonics' sum over all rays is not exactly their integral: only what is hidden is summed.
             glm::dvec3 hidden(0.0);
             for (std::size_t r = 0; r < directions.size(); ++r) {
                 along[r] = frame * directions[r];
-                segments[r] = {receiver.origin, along[r], 0, to_mm(unlimited)};
+                segments[r] = {origins_[i], along[r], 0, to_mm(unlimited)};
             }
             surface_.block(segments, is_blocked);
             for (std::size_t r = 0; r < directions.size(); ++r) {
                 const glm::dvec3& direction = along[r];
-                if (is_blocked[r] == 0 && passes_occluders(receiver, direction, unlimited)) continue;
+                if (is_blocked[r] == 0 && passes_occluders(points_[i], direction, unlimited)) continue;
                 const auto harmonics = spherical_harmonics(direction);
                 for (std::size_t k = 0; k < 9; ++k) hidden += environment.coefficients()[k] * harmonics[k];
             }
-            const glm::dvec3 open = environment.irradiance(receiver.normal);
+            const glm::dvec3 open = environment.irradiance(normals_[i]);
             const glm::dvec3 lost = hidden * (std::numbers::pi / sky_rays);
             result[wanted_[i]] = glm::clamp(open - lost, glm::dvec3(0.0), open);
         }

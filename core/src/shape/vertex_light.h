@@ -10,12 +10,11 @@
 
 #include "geometry/rigid_motion.h"
 #include "radiometry/prepared_light.h"
+#include "rays/visible_fraction.h"
 #include "shape/flesh_surface.h"
 #include "shape/surface_sites.h"
 
 namespace skinglow::detail {
-
-class LightSampler;
 
 /// What stands around a body, and how closely shadows are looked at.
 struct ShadowOptions {
@@ -51,18 +50,19 @@ class VertexLight {
     std::vector<glm::vec3> of_environment(const Environment& environment) const;
 
   private:
-    struct Receiver {
-        glm::dvec3 point;   ///< world
-        glm::vec3 origin;   ///< where rays begin, mm about the body's center
-        glm::dvec3 normal;  ///< unit; 0: receives nothing
+    struct Ray {
+        std::size_t receiver;
+        double weight;
+        LightSample sample;
     };
     void sort_by_position();
-    Receiver receiver_of(std::uint32_t vertex) const;
+    void add_receiver(std::uint32_t vertex);
     float to_mm(double distance) const;
-    bool passes_occluders(const Receiver& receiver, const glm::dvec3& direction, double distance) const;
-    template <typename Asked, typename Samples>
+    bool passes_occluders(const glm::dvec3& point, const glm::dvec3& direction, double distance) const;
+    template <typename Asked>
     void find_fractions(const PreparedLight& light, std::size_t begin, std::size_t end, const Asked& is_asked,
-                        const Samples& samples_of, std::span<float> seen) const;
+                        int samples, std::span<float> seen) const;
+    void trace(std::span<const Ray> rays, std::span<float> seen) const;
     std::vector<std::uint8_t> doubtful(std::span<const float> fraction) const;
 
     const FleshSurface& surface_;
@@ -70,7 +70,9 @@ class VertexLight {
     const SurfaceSites& sites_;
     double unit_mm_;
     std::vector<std::uint32_t> wanted_;
-    std::vector<Receiver> receivers_;    ///< of the wanted
+    std::vector<glm::dvec3> points_;     ///< of the wanted, world
+    std::vector<glm::dvec3> normals_;    ///< unit; 0: receives nothing
+    std::vector<glm::vec3> origins_;     ///< where rays begin, mm about the body's center
     std::vector<glm::uvec3> triangles_;  ///< that a wanted vertex is a corner of
     ShadowOptions options_;
     std::vector<TriangleRange> excluded_;

@@ -69,11 +69,6 @@ VoxelGrid::VoxelGrid(const FleshSurface& surface, std::span<const glm::vec3> cen
     number_cells();
 }
 
-glm::ivec3 VoxelGrid::voxel_of(const glm::vec3& point) const {
-    glm::ivec3 voxel(glm::floor((point - low_) / cell_));
-    return voxel;
-}
-
 void VoxelGrid::fit(std::span<const glm::vec3> centers, double margin) {
     const Bounds bounds = bounds_of(centers);
     const auto around = static_cast<float>(margin + (rim_cells + 1) * static_cast<double>(cell_));

@@ -37,7 +37,14 @@ class VoxelGrid {
     const Neighbors& neighbors(std::uint32_t cell) const { return neighbors_[cell]; }
 
     /// The voxel of the cell that holds a point.
-    glm::ivec3 voxel_of(const glm::vec3& point) const;
+    glm::ivec3 voxel_of(const glm::vec3& point) const {
+        // Without a call of the library's floor, which is one where processors may be old.
+        const glm::vec3 at = (point - low_) / cell_;
+        const glm::ivec3 cut(at);
+        return {cut.x - (at.x < static_cast<float>(cut.x) ? 1 : 0),
+                cut.y - (at.y < static_cast<float>(cut.y) ? 1 : 0),
+                cut.z - (at.z < static_cast<float>(cut.z) ? 1 : 0)};
+    }
     bool has(const glm::ivec3& voxel) const {
         return voxel.x >= 0 && voxel.y >= 0 && voxel.z >= 0 && voxel.x < extent_.x && voxel.y < extent_.y &&
                voxel.z < extent_.z;
