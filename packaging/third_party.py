@@ -6,14 +6,17 @@ Writes OUT/licenses/NAME.txt and OUT/NAME.cdx.json, NAME that of the package.
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
+from datetime import datetime, timezone
 from importlib.metadata import version as python_version
 from pathlib import Path
 from typing import NamedTuple
+from uuid import NAMESPACE_URL, uuid5
 
 from cyclonedx.model import ExternalReference, ExternalReferenceType, HashAlgorithm, HashType, XsUri
 from cyclonedx.model.bom import Bom
@@ -90,7 +93,11 @@ def component(library: Library) -> Component:
 
 def bill(root: Component, held: list[Component]) -> str:
     """The text of a bill of materials."""
-    bom = Bom(components=held)
+    # The same bill each time: with the date of all packages, and a number by what it tells.
+    when = datetime.fromtimestamp(int(os.environ["SOURCE_DATE_EPOCH"]), timezone.utc)
+    told = " ".join(f"{part.name} {part.version}" for part in (root, *held))
+    bom = Bom(components=held, serial_number=uuid5(NAMESPACE_URL, told))
+    bom.metadata.timestamp = when
     bom.metadata.component = root
     bom.register_dependency(root, held)
     return make_outputter(bom, OutputFormat.JSON, SchemaVersion.V1_6).output_as_string(indent=1)

@@ -5,6 +5,7 @@ Usage: zips.py PROJECT PACKAGES SCRIPT_ACCESS_WHEEL MANUAL PARTS TARGET
 """
 
 import ast
+import os
 import re
 import shutil
 import subprocess
@@ -112,6 +113,7 @@ def pack_extension(
     manifest = manifest.replace("@VERSION@", version).replace("@PLATFORMS@", str(list(held)).replace("'", '"'))
     (folder / "blender_manifest.toml").write_text(manifest.replace("@WHEELS@", f"[\n{names},\n]"))
     package = packages / f"{ADDON}-{version}-{name}.zip"
+    set_dates(folder)
     site = Path(sysconfig.get_path("purelib"))
     builder = next(site.glob("bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py"))
     paths = ["--source-dir", str(folder), "--output-filepath", str(package)]
@@ -121,11 +123,19 @@ def pack_extension(
         sys.exit(f"Blender's builder refused the extension:\n{done.stdout}")
 
 
+def set_dates(folder: Path) -> None:
+    """The one date of all that is packed, so that the same files make the same zip."""
+    when = int(os.environ["SOURCE_DATE_EPOCH"])
+    for path in folder.rglob("*"):
+        os.utime(path, (when, when))
+
+
 def pack_legacy(folder: Path, version: str, wheels: dict[str, Path], packages: Path) -> None:
     """The add-on's folder, with the core unpacked into `lib`: modules of several Pythons lie side by side."""
     for wheel in wheels.values():
         with zipfile.ZipFile(wheel) as archive:
             archive.extractall(folder / ADDON / "lib")
+    set_dates(folder)
     target = packages / f"{ADDON}-{version}-legacy-{'-'.join(wheels)}-linux-x64.zip"
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive:
         for path in sorted(folder.rglob("*")):
