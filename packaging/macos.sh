@@ -30,7 +30,8 @@ prepare_linker() {
 sys.stdout.buffer.write(zipfile.ZipFile(sys.argv[1]).read("ziglang/lib/libc/darwin/libSystem.11.tbd"))' "$portable/$zig" >"$list"
     fi
     [ "$SKINGLOW_ARCH" = x86_64 ] || triple=aarch64-macos.11.0
-    if [ ! -s "$told" ]; then
+    # Another zig has another library, in another folder.
+    if ! [ "$told" -nt "$portable/tools/requirements" ] || ! ls $(cat "$told") >/dev/null 2>&1; then
         echo 'int nothing() { return 0; }' >"$built/nothing.cpp"
         ZIG_VERBOSE_LINK=1 "$SKINGLOW_ZIG" c++ -target "$triple" -shared "$built/nothing.cpp" -o "$built/nothing.dylib" \
             >"$built/linker.log" 2>&1 || { cat "$built/linker.log" >&2; fail "zig could not build its C++ library for $target"; }

@@ -7,7 +7,7 @@ elseif(APPLE)
     # LLVM's linker makes a signed bundle that exports its entry point alone. zig's own leaves the C++ library's names to whoever
     # else has them in the process, and Blender has.
     set(CMAKE_CXX_CREATE_SHARED_MODULE
-        "$ENV{SKINGLOW_LLD} -arch ${CMAKE_SYSTEM_PROCESSOR} -platform_version macos 11.0 11.0 -bundle -o <TARGET> <OBJECTS> \
+        "$ENV{SKINGLOW_LLD} -arch ${CMAKE_SYSTEM_PROCESSOR} -platform_version macos 11.0 11.0 -bundle -adhoc_codesign -o <TARGET> <OBJECTS> \
 <LINK_LIBRARIES> $ENV{SKINGLOW_MACOS_LIBRARIES} -undefined dynamic_lookup -exported_symbol '_PyInit_*' -dead_strip -x")
 endif()
 # The licenses of what is compiled in go into the wheel.

@@ -16,10 +16,10 @@ gather_headers() {
     ln -s /usr/include/x86_64-linux-gnu "$portable/headers/debian/x86_64-linux-gnu"
 }
 
-# third_party wheel|addon FOLDER PYTHON: the licenses of what is compiled in, which ask to be passed on with it, and a bill of
+# third_party wheel|addon TARGET FOLDER PYTHON: the licenses of what is compiled in, which ask to be passed on with it, and a bill of
 # materials.
 third_party() {
-    "$3" "$steps/third_party.py" "$1" "$project" "$portable" "$2" "embree=$embree_version=$embree_sha256" \
+    "$4" "$steps/third_party.py" "$1" "$2" "$project" "$portable" "$3" "embree=$embree_version=$embree_sha256" \
         "highway=$highway_version=$highway_sha256" || fail "the licenses or the bill of materials could not be gathered"
 }
 
@@ -41,7 +41,7 @@ build_wheel() {
     then return; fi
     say "building the wheel for $target and Python $1"
     gather_headers
-    third_party wheel "$portable/wheel_parts" "$python"
+    third_party wheel "$target" "$built/wheel_parts" "$python"
     rm -rf "$work" "$packages"/skinglow-*-"$tag-$tag"-$wheel_platform.whl
     mkdir -p "$work"
     # One build folder for all versions: the core does not depend on Python and is compiled once. What the compiler is
@@ -53,7 +53,7 @@ build_wheel() {
     printf '%s' "$told" >"$built/skinglow_build/told"
     local settings=(build-dir="$built/skinglow_build" install.components=python)
     target_settings "$1"
-    for setting in SKINGLOW_RAYS=ON SKINGLOW_PARTS="$portable/wheel_parts" \
+    for setting in SKINGLOW_RAYS=ON SKINGLOW_PARTS="$built/wheel_parts" \
         CMAKE_TOOLCHAIN_FILE="$toolchain" CMAKE_PROJECT_skinglow_INCLUDE="$steps/portable_modules.cmake" \
         CMAKE_INTERPROCEDURAL_OPTIMIZATION=OFF \
         glm_DIR="$portable/headers/glm" nlohmann_json_DIR="$portable/headers/nlohmann_json" \
@@ -67,6 +67,14 @@ build_wheel() {
     } >"$work/log.txt" 2>&1 ||
         { tail -n 30 "$work/log.txt" >&2; fail "the wheel for $target and Python $1 did not build; the whole log: $work/log.txt"; }
     printf '%s' "$want" >"$work/digest"
+}
+
+# The source as pip takes it, in build/packages.
+build_source_package() {
+    rm -f "$packages"/skinglow-*.tar.gz
+    "$1" -c 'import sys; from scikit_build_core.build import build_sdist; build_sdist(sys.argv[1])' "$packages" \
+        >"$portable/source_package.log" 2>&1 ||
+        { tail -n 20 "$portable/source_package.log" >&2; fail "the source package could not be made"; }
 }
 
 # The small wheel by which scripts find the extension, for any Python, in build/portable/script_access.
