@@ -36,7 +36,7 @@ class Library(NamedTuple):
 
     name: str
     license: str  #: SPDX expression
-    holder: str  #: of its copyright, after the years, where its license tells them
+    holder: str  #: of its copyright, after the years, which Blender asks for
     website: str
     texts: tuple[Path, ...]  #: its license, and the notices of what it holds itself
     version: str
@@ -87,7 +87,7 @@ def libraries(target: str, portable: Path, fetched: dict[str, tuple[str, str]]) 
         site = f"https://github.com/llvm/llvm-project/{name}"
         yield Library(name, LLVM, holder, site, (lib / name / "LICENSE.TXT",), llvm)
     texts, found = (tools / "ziglang" / "LICENSE",), python_version("ziglang")
-    yield Library("zig_compiler_rt", "MIT", "Zig contributors", "https://ziglang.org", texts, found)
+    yield Library("zig_compiler_rt", "MIT", "2015-2026 Zig contributors", "https://ziglang.org", texts, found)
     if target in ("windows-x64", "all"):
         site, texts = "https://www.mingw-w64.org", (lib / "libc" / "mingw" / "COPYING",)
         yield Library("mingw_w64", "ZPL-2.1", "2009-2013 mingw-w64 project", site, texts, f"zig-{found}")

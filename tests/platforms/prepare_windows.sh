@@ -12,7 +12,8 @@ for version in 3.11 3.13; do
     rm -rf "$here"
     mkdir -p "$(dirname "$here")"
     cp -r "$theirs" "$here"
+    # pip would ask this machine's Python whether the packages are for it.
     "$envs/tools/bin/pip" install --quiet --target "$here/lib/site-packages" --platform win_amd64 --python-version "$version" \
-        --only-binary :all: --no-deps --require-hashes --requirement "$pins" || fail "pip could not install $pins"
+        --only-binary :all: --no-deps --ignore-requires-python --require-hashes --requirement "$pins" || fail "pip could not install $pins"
     cp "$pins" "$here/requirements"
 done
