@@ -1,4 +1,4 @@
-# Sourced by scripts/package: a static Embree for the portable wheels, in build/portable/embree.
+# Sourced by scripts/package: a static Embree for the portable wheels of a target, in $built/embree.
 # Debian's own needs a newer C library; and a shared one would meet the one that Blender brings.
 embree_version=3.13.5
 embree_source="embree_$embree_version+dfsg.orig.tar.xz"
@@ -32,6 +32,8 @@ unpack_embree() {
     # And the lowest instruction set would be compiled twice.
     sed -i 's/IF (EMBREE_ISA_SSE42 AND .*/IF (FALSE)/' "$lists"
     sed -i '/embree_sse42-targets/d' "$portable/embree_source/common/cmake/embree-config.cmake"
+    # A static library has no use for the version that Windows shows of a DLL.
+    sed -i '/embree\.rc/d' "$lists"
     # Two output operators that nobody calls name members that are not there, which Clang tells since version 19.
     sed -i 's/(" << a\.u\.lower << ", " << a\.u\.upper << "), " <</" <</' "$portable/embree_source/kernels/subdiv/bezier_curve.h"
     sed -i 's/ << line\.v0 << ", " <</ <</' "$portable/embree_source/kernels/geometry/pointi.h"
@@ -39,17 +41,18 @@ unpack_embree() {
 
 build_embree() {
     local want
-    want=$(cat "$steps/embree.sh" "$steps/portable_linux.cmake" "$portable/tools/requirements" | sha256sum)
-    [ "$(cat "$portable/embree/digest" 2>/dev/null)" != "$want" ] || return 0
+    want=$({ cat "$steps/embree.sh" "$toolchain" "$portable/tools/requirements"; echo "${embree_more[@]}"; } | sha256sum)
+    [ "$(cat "$built/embree/digest" 2>/dev/null)" != "$want" ] || return 0
     fetch_source libembree-dev "$embree_source" "$embree_sha256"
-    say "building Embree $embree_version"
+    say "building Embree $embree_version for $target"
     unpack_embree
-    rm -rf "$portable/embree_build" "$portable/embree"
+    rm -rf "$built/embree_build" "$built/embree"
     {
-        cmake -G Ninja -S "$portable/embree_source" -B "$portable/embree_build" -DCMAKE_BUILD_TYPE=Release \
-            -DCMAKE_TOOLCHAIN_FILE="$steps/portable_linux.cmake" -DCMAKE_INSTALL_PREFIX="$portable/embree" "${embree_options[@]}" &&
-            cmake --build "$portable/embree_build" && cmake --install "$portable/embree_build" --component devel
-    } >"$portable/embree.log" 2>&1 ||
-        { tail -n 20 "$portable/embree.log" >&2; fail "Embree did not build; the whole log: build/portable/embree.log"; }
-    printf '%s' "$want" >"$portable/embree/digest"
+        cmake -G Ninja -S "$portable/embree_source" -B "$built/embree_build" -DCMAKE_BUILD_TYPE=Release \
+            -DCMAKE_TOOLCHAIN_FILE="$toolchain" -DCMAKE_INSTALL_PREFIX="$built/embree" "${embree_options[@]}" \
+            "${embree_more[@]}" &&
+            cmake --build "$built/embree_build" && cmake --install "$built/embree_build" --component devel
+    } >"$built/embree.log" 2>&1 ||
+        { tail -n 20 "$built/embree.log" >&2; fail "Embree did not build; the whole log: $built/embree.log"; }
+    printf '%s' "$want" >"$built/embree/digest"
 }

@@ -16,10 +16,10 @@ gather_headers() {
     ln -s /usr/include/x86_64-linux-gnu "$portable/headers/debian/x86_64-linux-gnu"
 }
 
-# third_party wheel|addon FOLDER PYTHON: the licenses of what is compiled in, which ask to be passed on with it, and a bill of
+# third_party wheel|addon TARGET FOLDER PYTHON: the licenses of what is compiled in, which ask to be passed on with it, and a bill of
 # materials.
 third_party() {
-    "$3" "$steps/third_party.py" "$1" "$project" "$portable" "$2" "embree=$embree_version=$embree_sha256" \
+    "$4" "$steps/third_party.py" "$1" "$2" "$project" "$portable" "$3" "embree=$embree_version=$embree_sha256" \
         "highway=$highway_version=$highway_sha256" || fail "the licenses or the bill of materials could not be gathered"
 }
 
@@ -28,46 +28,53 @@ wheel_digest() {
     {
         find CMakeLists.txt pyproject.toml README.md core python_bindings -type f ! -path '*__pycache__*' ! -path 'core/src/cli/*' -print0 |
             sort -z | xargs -0 sha256sum
-        cat "$portable"/{embree,highway}/digest "$steps"/*.cmake "$steps/exported_symbols.map" "$steps/wheels.sh" "$steps/third_party.py"
+        cat "$built"/{embree,highway}/digest "$steps"/*.cmake "$steps/exported_symbols.map" "$steps/third_party.py" "$steps"/*.sh
         "$1" --version
     } | sha256sum
 }
 
-# build_wheel VERSION PYTHON
+# build_wheel VERSION PYTHON: the wheel of the target for that version, by this machine's Python of the same version.
 build_wheel() {
-    local tag=cp${1/./} python=$2 want work=$portable/wheel_$1
+    local tag=cp${1/./} python=$2 want work=$built/wheel_$1
     want=$(wheel_digest "$python")
-    if [ "$(cat "$work/digest" 2>/dev/null)" = "$want" ] && compgen -G "$packages/skinglow-*-$tag-*.whl" >/dev/null; then return; fi
-    say "building the portable wheel for Python $1"
+    if [ "$(cat "$work/digest" 2>/dev/null)" = "$want" ] && compgen -G "$packages/skinglow-*-$tag-$wheel_platform.whl" >/dev/null
+    then return; fi
+    say "building the wheel for $target and Python $1"
     gather_headers
-    third_party wheel "$portable/wheel_parts" "$python"
-    rm -rf "$work" "$packages"/skinglow-*-"$tag-$tag"-*.whl
+    third_party wheel "$target" "$built/wheel_parts" "$python"
+    rm -rf "$work" "$packages"/skinglow-*-"$tag-$tag"-$wheel_platform.whl
     mkdir -p "$work"
     # One build folder for all versions: the core does not depend on Python and is compiled once. What the compiler is
     # told is kept in it from the first time on.
     local told setting
-    told=$(cat "$portable"/{embree,highway}/digest "$steps"/*.cmake | sha256sum)
-    [ "$(cat "$portable/skinglow_build/told" 2>/dev/null)" = "$told" ] || rm -rf "$portable/skinglow_build"
-    mkdir -p "$portable/skinglow_build"
-    printf '%s' "$told" >"$portable/skinglow_build/told"
-    local settings=(build-dir="$portable/skinglow_build" install.components=python)
-    for setting in SKINGLOW_RAYS=ON SKINGLOW_PARTS="$portable/wheel_parts" \
-        CMAKE_TOOLCHAIN_FILE="$steps/portable_linux.cmake" CMAKE_PROJECT_skinglow_INCLUDE="$steps/portable_modules.cmake" \
-        CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES="$portable/headers/debian" CMAKE_INTERPROCEDURAL_OPTIMIZATION=OFF \
+    told=$(cat "$built"/{embree,highway}/digest "$toolchain" "$steps"/{portable_modules,*Config}.cmake | sha256sum)
+    [ "$(cat "$built/skinglow_build/told" 2>/dev/null)" = "$told" ] || rm -rf "$built/skinglow_build"
+    mkdir -p "$built/skinglow_build"
+    printf '%s' "$told" >"$built/skinglow_build/told"
+    local settings=(build-dir="$built/skinglow_build" install.components=python)
+    target_settings "$1"
+    for setting in SKINGLOW_RAYS=ON SKINGLOW_PARTS="$built/wheel_parts" \
+        CMAKE_TOOLCHAIN_FILE="$toolchain" CMAKE_PROJECT_skinglow_INCLUDE="$steps/portable_modules.cmake" \
+        CMAKE_INTERPROCEDURAL_OPTIMIZATION=OFF \
         glm_DIR="$portable/headers/glm" nlohmann_json_DIR="$portable/headers/nlohmann_json" \
         FastFloat_DIR="$portable/headers/fast_float" \
-        embree_DIR="$portable/embree/lib/cmake/embree-$embree_version" hwy_DIR="$portable/highway/lib/cmake/hwy"; do
+        embree_DIR="$built/embree/lib/cmake/embree-$embree_version" hwy_DIR="$built/highway/lib/cmake/hwy" "${more_settings[@]}"; do
         settings+=("cmake.define.$setting")
     done
-    # Loading a module looks all its symbols up: what is missing shows here.
     {
         "$python" -m pip wheel --no-build-isolation --no-deps --wheel-dir "$work" "${settings[@]/#/--config-settings=}" . &&
-            "$python" -m zipfile -e "$work"/*.whl "$work/unpacked" &&
-            "$python" -c 'import ctypes, sys; [ctypes.CDLL(path) for path in sys.argv[1:]]' "$work"/unpacked/skinglow/*.so &&
-            "$python" -m auditwheel repair --only-plat --wheel-dir "$packages" "$work"/*.whl
+            "$python" -m zipfile -e "$work"/*.whl "$work/unpacked" && finish_wheel "$python" "$work"
     } >"$work/log.txt" 2>&1 ||
-        { tail -n 30 "$work/log.txt" >&2; fail "the wheel for Python $1 did not build; the whole log: $work/log.txt"; }
+        { tail -n 30 "$work/log.txt" >&2; fail "the wheel for $target and Python $1 did not build; the whole log: $work/log.txt"; }
     printf '%s' "$want" >"$work/digest"
+}
+
+# The source as pip takes it, in build/packages.
+build_source_package() {
+    rm -f "$packages"/skinglow-*.tar.gz
+    "$1" -c 'import sys; from scikit_build_core.build import build_sdist; build_sdist(sys.argv[1])' "$packages" \
+        >"$portable/source_package.log" 2>&1 ||
+        { tail -n 20 "$portable/source_package.log" >&2; fail "the source package could not be made"; }
 }
 
 # The small wheel by which scripts find the extension, for any Python, in build/portable/script_access.

@@ -1,10 +1,12 @@
 """Packs the Blender add-on: an extension for Blender 4.2 and later, and an older sort of add-on for 3.4.
 
 Usage: zips.py PROJECT PACKAGES SCRIPT_ACCESS_WHEEL MANUAL PARTS TARGET
-(by a Python whose environment holds bpy 4.2 or later; TARGET: a key of PLATFORMS, or "all" for one extension of all)
+(by a Python whose environment holds bpy 4.2 or later; TARGET: a key of PLATFORMS, or "all", one extension for all)
 """
 
 import ast
+import json
+import os
 import re
 import shutil
 import subprocess
@@ -33,14 +35,15 @@ def main(project: Path, packages: Path, script_access: Path, manual: Path, parts
         sys.exit(f"the add-on's bl_info says {addon_version(project)}, the project is {version}: make them equal")
     targets = list(PLATFORMS) if target == "all" else [target]
     wheels = {each: wheels_of(packages, version, each) for each in targets}
+    if lacking := [each for each, found in wheels.items() if not found]:
+        sys.exit(f"there are no wheels for {' and '.join(lacking)} in {packages}: scripts/package makes them")
     with tempfile.TemporaryDirectory() as folder:
         extension = Path(folder) / "extension"
         copy_addon(project, manual, parts, extension)
         leave_out_old_ways(extension)
-        held = {
-            each: [found[tag] for tag in EXTENSION_PYTHONS if tag in found] for each, found in wheels.items() if found
-        }
-        pack_extension(project, extension, version, target, held, script_access, packages)
+        held = {each: [found[tag] for tag in EXTENSION_PYTHONS if tag in found] for each, found in wheels.items()}
+        name = "all-platforms" if target == "all" else target
+        pack_extension(project, parts, extension, version, name, held, script_access, packages)
         legacy = {tag: wheels[target][tag] for tag in LEGACY_PYTHONS if target == "linux-x64" and tag in wheels[target]}
         if legacy:
             copy_addon(project, manual, parts, Path(folder) / "legacy" / ADDON)
@@ -95,6 +98,7 @@ def leave_out_old_ways(folder: Path) -> None:
 
 def pack_extension(
     project: Path,
+    parts: Path,
     folder: Path,
     version: str,
     name: str,
@@ -109,9 +113,13 @@ def pack_extension(
         shutil.copy(wheel, folder / "wheels")
     names = ",\n".join(f'    "./wheels/{wheel.name}"' for wheel in wheels)
     manifest = (project / "blender_addon" / "blender_manifest.toml.in").read_text()
-    manifest = manifest.replace("@VERSION@", version).replace("@PLATFORMS@", str(list(held)).replace("'", '"'))
+    manifest = manifest.replace("@VERSION@", version).replace("@PLATFORMS@", json.dumps(list(held)))
+    told = json.loads((parts / "holders.json").read_text())
+    for key, own in (("license", "SPDX:GPL-3.0-or-later"), ("copyright", "2026 Skinglow contributors")):
+        manifest = manifest.replace(f"@{key.upper()}@", json.dumps([own, *told[key]], indent=4))
     (folder / "blender_manifest.toml").write_text(manifest.replace("@WHEELS@", f"[\n{names},\n]"))
     package = packages / f"{ADDON}-{version}-{name}.zip"
+    set_dates(folder)
     site = Path(sysconfig.get_path("purelib"))
     builder = next(site.glob("bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py"))
     paths = ["--source-dir", str(folder), "--output-filepath", str(package)]
@@ -121,11 +129,19 @@ def pack_extension(
         sys.exit(f"Blender's builder refused the extension:\n{done.stdout}")
 
 
+def set_dates(folder: Path) -> None:
+    """The one date of all that is packed, so that the same files make the same zip."""
+    when = int(os.environ["SOURCE_DATE_EPOCH"])
+    for path in folder.rglob("*"):
+        os.utime(path, (when, when))
+
+
 def pack_legacy(folder: Path, version: str, wheels: dict[str, Path], packages: Path) -> None:
     """The add-on's folder, with the core unpacked into `lib`: modules of several Pythons lie side by side."""
     for wheel in wheels.values():
         with zipfile.ZipFile(wheel) as archive:
             archive.extractall(folder / ADDON / "lib")
+    set_dates(folder)
     target = packages / f"{ADDON}-{version}-legacy-{'-'.join(wheels)}-linux-x64.zip"
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive:
         for path in sorted(folder.rglob("*")):

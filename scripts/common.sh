@@ -8,10 +8,51 @@ export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_ROOT_USER_ACTION=ignore
 say() { printf '[%s] %s\n' "$(date +%H:%M:%S)" "$*"; }
 fail() { printf 'skinglow: %s\n' "$*" >&2; exit 1; }
 
-# Debian packages, only those that are not there yet.
+# is_there NAME: whether another system has what that Debian package brings: a program, a library or a header.
+is_there() {
+    local header=
+    case $1 in
+    ninja-build) command -v ninja >/dev/null ;;
+    povray-includes) compgen -G "/usr/*share/povray*/include/colors.inc" >/dev/null ||
+        compgen -G "/usr/local/share/povray*/include/colors.inc" >/dev/null ;;
+    xvfb) command -v Xvfb >/dev/null ;;
+    nodejs) command -v node >/dev/null ;;
+    maven) command -v mvn >/dev/null ;;
+    qemu-user) command -v qemu-aarch64 >/dev/null ;;
+    lld-16) command -v ld64.lld-16 >/dev/null ;;
+    slurm-wlm) command -v slurmctld >/dev/null ;;
+    munge) command -v munged >/dev/null ;;
+    wine64) command -v wine64 wine >/dev/null ;;
+    python3-numpy) python3 -c 'import numpy' 2>/dev/null ;;
+    python3-*) find_python 3.11 >/dev/null ;;
+    libx11-6 | libegl1 | libgl1 | libgomp1 | libice6 | libsm6 | libxfixes3 | libxi6 | libxkbcommon0 | libxrender1 | libxxf86vm1)
+        # libx11-6 is libX11.so.6, whatever the letters' case.
+        ldconfig -p 2>/dev/null | grep -iE "^\s*$(sed -E 's/-?([0-9]+)$/.so.\1/' <<<"$1")\b" >/dev/null ;;
+    libglm-dev) header=glm/glm.hpp ;;
+    libeigen3-dev) header=Eigen/Core ;;
+    libembree-dev) header=embree3/rtcore.h ;;
+    libhwy-dev) header=hwy/highway.h ;;
+    libopenimageio-dev) header=OpenImageIO/imageio.h ;;
+    nlohmann-json3-dev) header=nlohmann/json.hpp ;;
+    libfast-float-dev) header=fast_float/fast_float.h ;;
+    libcli11-dev) header=CLI/CLI.hpp ;;
+    libbenchmark-dev) header=benchmark/benchmark.h ;;
+    libgtest-dev) header=gtest/gtest.h ;;
+    *) command -v "$1" >/dev/null ;;
+    esac || return 1
+    # Eigen lies in a folder of its own.
+    [ -z "$header" ] || g++ -std=c++20 -I/usr/include/eigen3 -E -x c++ -include "$header" /dev/null >/dev/null 2>&1
+}
+
+# Debian packages, only those that are not there yet. Other systems are told what they lack.
 install_packages() {
-    command -v dpkg-query >/dev/null || fail "this set-up is for Debian 12; elsewhere install by hand: $*"
     local missing=() name
+    if ! command -v dpkg-query >/dev/null; then
+        for name in "$@"; do is_there "$name" || missing+=("$name"); done
+        [ ${#missing[@]} -eq 0 ] || fail "this system is not Debian 12, and lacks what these packages of Debian's bring; install" \
+            "that by its own package manager, then run this again: ${missing[*]}"
+        return 0
+    fi
     for name in "$@"; do
         [ "$(dpkg-query -W -f '${db:Status-Status}' "$name" 2>/dev/null)" = installed ] || missing+=("$name")
     done

@@ -1,6 +1,6 @@
 """Runs in Blender, from a copy in a folder of its own: installs a package, or uses the one installed before.
 
-Usage: installed_package.py RESULT.json install ZIP | RESULT.json use
+Usage: installed_package.py RESULT.json (install ZIP | use | subscribe URL | upgrade)
 What it finds goes into the JSON file; test_packages.py judges it.
 """
 
@@ -35,6 +35,38 @@ def install(package):
         bpy.ops.preferences.addon_enable(module=ADDON)
     bpy.ops.wm.save_userpref()
     return {"enabled": addon_name()}
+
+
+def subscribe(url):
+    """As a person does with a repository: adds its address, and installs from it."""
+    bpy.context.preferences.system.use_online_access = True
+    bpy.ops.preferences.extension_repo_add(name="Ours", remote_url=url, type="REMOTE")
+    repos = bpy.context.preferences.extensions.repos
+    index = next(i for i, repo in enumerate(repos) if repo.remote_url == url)
+    bpy.ops.extensions.repo_sync(repo_index=index)
+    bpy.ops.extensions.package_install(repo_index=index, pkg_id=ADDON, enable_on_install=True)
+    bpy.ops.wm.save_userpref()
+    return installed_version()
+
+
+def upgrade():
+    """What the repository has anew."""
+    bpy.ops.wm.read_userpref()
+    bpy.ops.extensions.repo_sync_all()
+    bpy.ops.extensions.package_upgrade_all()
+    return installed_version()
+
+
+def installed_version():
+    """Of the extension that is enabled, by its manifest, and whether it works."""
+    import skinglow_blender as sb
+
+    name = addon_name()
+    manifest = Path(sys.modules[name].__file__).with_name("blender_manifest.toml").read_text()
+    version = next(line for line in manifest.splitlines() if line.startswith("version"))
+    clear_scene()
+    thickness = sb.make_skin(add_ball()).thickness_mm
+    return {"enabled": name, "version": version.split('"')[1], "thickest_mm": float(max(thickness))}
 
 
 def use():
@@ -236,7 +268,7 @@ def remove():
 
 def main():
     result, task, *arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else sys.argv[1:]
-    found = {"install": install, "use": use}[task](*arguments)
+    found = {"install": install, "use": use, "subscribe": subscribe, "upgrade": upgrade}[task](*arguments)
     Path(result).write_text(json.dumps(found, indent=1))
 
 

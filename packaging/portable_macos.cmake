@@ -1,0 +1,26 @@
+# CMake toolchain: zig's clang for macOS 11 and later; its archiver and its C++ library. Modules are linked by LLVM's own linker
+# (portable_modules.cmake). SKINGLOW_ZIG (environment): the zig program; SKINGLOW_BIN: its ar and ranlib; SKINGLOW_ARCH: x86_64 or
+# arm64.
+set(CMAKE_SYSTEM_NAME Darwin)
+set(CMAKE_SYSTEM_PROCESSOR $ENV{SKINGLOW_ARCH})
+set(CMAKE_C_COMPILER $ENV{SKINGLOW_ZIG} cc)
+set(CMAKE_CXX_COMPILER $ENV{SKINGLOW_ZIG} c++)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "arm64")
+    set(SKINGLOW_TRIPLE aarch64-macos.11.0)
+    set(SKINGLOW_CPU "")
+else()
+    set(SKINGLOW_TRIPLE x86_64-macos.11.0)
+    set(SKINGLOW_CPU "-mcpu=x86_64_v2 ")
+endif()
+set(CMAKE_C_COMPILER_TARGET ${SKINGLOW_TRIPLE})
+set(CMAKE_CXX_COMPILER_TARGET ${SKINGLOW_TRIPLE})
+set(CMAKE_C_FLAGS_INIT "${SKINGLOW_CPU}-w -g0")
+set(CMAKE_CXX_FLAGS_INIT "${SKINGLOW_CPU}-w -g0")
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+set(CMAKE_AR $ENV{SKINGLOW_BIN}/ar CACHE FILEPATH "")
+set(CMAKE_RANLIB $ENV{SKINGLOW_BIN}/ranlib CACHE FILEPATH "")
+# Stripping after the link would break the signature; and there is nothing to rename.
+set(CMAKE_STRIP "" CACHE FILEPATH "")
+set(CMAKE_INSTALL_NAME_TOOL /bin/true CACHE FILEPATH "")
+set(CMAKE_OSX_SYSROOT "" CACHE STRING "")
+set(CMAKE_OSX_DEPLOYMENT_TARGET "" CACHE STRING "")

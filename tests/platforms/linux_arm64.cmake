@@ -1,0 +1,16 @@
+# CMake toolchain: zig's clang for Linux on arm64 with musl, all static, so that an emulator runs it without that system's files.
+# SKINGLOW_ZIG (environment): the zig program; SKINGLOW_BIN: its ar and ranlib.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_C_COMPILER $ENV{SKINGLOW_ZIG} cc)
+set(CMAKE_CXX_COMPILER $ENV{SKINGLOW_ZIG} c++)
+set(CMAKE_C_COMPILER_TARGET aarch64-linux-musl)
+set(CMAKE_CXX_COMPILER_TARGET aarch64-linux-musl)
+set(CMAKE_C_FLAGS_INIT "-w -g0")
+set(CMAKE_CXX_FLAGS_INIT "-w -g0")
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-static")
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64)
+set(CMAKE_AR $ENV{SKINGLOW_BIN}/ar CACHE FILEPATH "")
+set(CMAKE_RANLIB $ENV{SKINGLOW_BIN}/ranlib CACHE FILEPATH "")
+set(CMAKE_STRIP "" CACHE FILEPATH "")
