@@ -107,6 +107,16 @@ def test_a_body_in_the_wrong_unit_is_a_half_space_at_once(scale):
     assert shape.exitance(LIGHT).max() == pytest.approx(0.628, abs=0.01)
 
 
+@pytest.mark.parametrize("point", [[1e9, 0.0, 0.0], [0.0, -1e30, 0.0], [0.0, 0.0, 1e300], [0.1, 0.1, 0.1]])
+def test_vertices_of_no_triangle_change_nothing(point):
+    """Embree's rays were not valid, and nearer ones widened all gaps between rays and the surface."""
+    medium = {"absorption": (0.01,) * 3, "reduced_scattering": (1.0,) * 3}
+    alone = sg.Shape(*BODY, **medium).exitance(np.ones((len(BODY[0]), 3)))
+    found = sg.Shape(np.vstack([BODY[0], [point]]), BODY[1], **medium).exitance(np.ones((len(BODY[0]) + 1, 3)))
+    np.testing.assert_array_equal(found[:-1], alone)
+    np.testing.assert_array_equal(found[-1], 0.0)
+
+
 @pytest.mark.parametrize("point", [[1e6, 0.0, 0.0], [5e-324, 0.0, 0.0]])
 def test_points_anywhere_are_moved_to_the_surface(point):
     shape = sg.Shape(*BODY, **SKIN, points=[point], normals=np.full((1, 3), 5e-324))

@@ -82,12 +82,23 @@ Body::Body(const MeshView& mesh, double unit_mm) : unit_mm_(unit_mm) {
     positions_.reserve(weld.first.size());
     for (const std::uint32_t first : weld.first) positions_.push_back(local(given[first]));
     welded_of_ = std::move(weld.index);
+    settle_loose_vertices(mesh.triangles());
     stop_if_asked();
     add_triangles(mesh.triangles());
     stop_if_asked();
     turn_outward();
     stop_if_asked();
     index_triangles();
+}
+
+void Body::settle_loose_vertices(std::span<const glm::uvec3> triangles) {
+    std::vector<bool> is_used(positions_.size(), false);
+    for (const glm::uvec3& t : triangles) {
+        for (int k = 0; k < 3; ++k) is_used[welded_of_[t[k]]] = true;
+    }
+    for (std::size_t i = 0; i < positions_.size(); ++i) {
+        if (!is_used[i]) positions_[i] = glm::vec3(0.0F);
+    }
 }
 
 void Body::add_triangles(std::span<const glm::uvec3> triangles) {

@@ -47,6 +47,8 @@ class Body {
     }
 
   private:
+    /// Vertices of no triangle are put to the center: wherever they are, they are no part of the body's extent.
+    void settle_loose_vertices(std::span<const glm::uvec3> triangles);
     void add_triangles(std::span<const glm::uvec3> triangles);
     void turn_outward();
     void index_triangles();
