@@ -22,7 +22,7 @@ from .commands.skin import SkinState
 from .commands.thickness_map import BakedThickness
 from .errors import SkinError
 from .live import handlers
-from .live.live_update import Rebuilt
+from .live.rebuilt import Rebuilt
 from .show import image_pairs, material_settings, subsurface
 from .ui import (
     farm_operators,

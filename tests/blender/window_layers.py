@@ -1,4 +1,5 @@
-"""Runs in a Blender with a window: turns it from view layer to view layer and waits until the lookup follows.
+"""Runs in a Blender with a window: turns it from view layer to view layer and waits until the lookup follows; renders
+an animation while a Cycles view is open, with and without Lock Interface.
 
 Usage: xvfb-run blender --factory-startup -P window_layers.py -- RESULT.json, which then holds true or what went wrong.
 """
@@ -17,7 +18,8 @@ sys.path.append(os.environ["SKINGLOW_SITE"])
 import bpy  # noqa: E402
 import numpy as np  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
-from inside.scenes import add_light, paper_table, patch  # noqa: E402
+from inside.rendered_frames import assert_frames, scene_with_moving_light  # noqa: E402
+from inside.scenes import add_light, assert_fresh, paper_table, patch  # noqa: E402
 from skinglow_blender.session import SESSION  # noqa: E402
 
 SECONDS = 60
@@ -48,6 +50,7 @@ def steps():
             assert time.monotonic() < until, f"{layers[which].name} shows another layer's lookup"
             yield
     yield from two_windows(obj, layers, paper_table(lights))
+    yield from animation_while_cycles_looks()
 
 
 def two_windows(obj, layers, of_first):
@@ -71,6 +74,42 @@ def two_windows(obj, layers, of_first):
         if of_first is not None:
             np.testing.assert_allclose(sb.lut(obj, layers[0].depsgraph), of_first, rtol=1e-6)
     assert not SESSION.faults, SESSION.faults
+
+
+def animation_while_cycles_looks():
+    """Each frame shows its own light while the view is turned, and the view its own afterwards."""
+    first, second = bpy.context.window_manager.windows
+    with bpy.context.temp_override(window=second):
+        bpy.ops.wm.window_close()
+    first.scene = bpy.data.scenes.new("Rendered")
+    scene, obj = scene_with_moving_light()
+    bpy.context.preferences.view.render_display_type = "NONE"
+    scene.frame_end = 3
+    scene.cycles.samples = 1024
+    area = next(area for area in first.screen.areas if area.type == "VIEW_3D")
+    space = area.spaces.active
+    space.shading.type = "RENDERED"
+    ended = []
+    bpy.app.handlers.render_complete.append(lambda *_: ended.append(True))
+    for is_locked in (True, False):
+        scene.render.use_lock_interface = is_locked
+        folder = Path(sys.argv[-1]).parent / f"locked_{is_locked}"
+        folder.mkdir()
+        scene.render.filepath = f"{folder}/####"
+        ended.clear()
+        yield
+        with bpy.context.temp_override(window=first):
+            bpy.ops.render.render("INVOKE_DEFAULT", animation=True)
+        until = time.monotonic() + SECONDS
+        while not ended:
+            assert time.monotonic() < until, "the animation does not end"
+            space.region_3d.view_distance *= 1.01
+            area.tag_redraw()
+            yield
+        yield
+        assert_frames(folder, 2e-5, last=scene.frame_end)
+        assert_fresh(obj)
+        assert not SESSION.faults, SESSION.faults
 
 
 def tick():

@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import SkinError
 from ..identity import key_of
 from ..live.shape_update import EDIT_MODE, shape_report
-from ..read.measured_size import is_reshaped
+from ..read.measured_size import is_reshaped, is_stretched
 from ..read.mesh_reading import evaluated_mesh, vertices_of_slots
 from ..session import SESSION
 from ..show.frozen import frozen_frames, frozen_mark, is_frozen, missing_file
@@ -39,7 +39,7 @@ def health(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None = None) 
         skin_settings_of(obj)
     depsgraph = depsgraph or bpy.context.evaluated_depsgraph_get()
     faults = quick_faults(obj)
-    if not any(fault.remedy == MEASURE for fault in faults):
+    if not any(fault.remedy == MEASURE and not fault.is_hint for fault in faults):
         faults += _thickness_faults(obj, depsgraph)
     told = SESSION.faults.get(key_of(obj))
     if told is not None and not faults:
@@ -77,6 +77,9 @@ def quick_faults(obj: bpy.types.Object) -> list[Fault]:
         faults.append(Fault("Its thickness is not known, so it does not glow", MEASURE))
     elif is_reshaped(mesh) and thickness_attribute.is_from_measurement(mesh):
         faults.append(Fault("Its mesh was edited after its thickness was measured", MEASURE))
+    elif thickness_attribute.is_from_measurement(mesh) and is_stretched(obj):
+        # A hint: animation may squash and stretch it.
+        faults.append(Fault("It was scaled unevenly after its thickness was measured", MEASURE, is_hint=True))
     return faults
 
 

@@ -11,7 +11,8 @@ from ..errors import SkinError
 from ..identity import key_of
 from ..live import shape_update
 from ..live.file_upgrade import upgrade
-from ..live.live_update import Rebuilt, update_scene
+from ..live.live_update import update_scene
+from ..live.rebuilt import Rebuilt
 from ..live.shape_tiles import store_missing_tiles
 from ..live.shape_update import ShapeReport, shape_report
 from ..read import measured_geometry, working_space, world_image

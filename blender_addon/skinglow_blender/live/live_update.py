@@ -2,7 +2,6 @@
 """Updates the skins' images after a change in the scene; does nothing if nothing changed."""
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 import bpy
 import numpy as np
@@ -11,35 +10,20 @@ from ..errors import SkinError
 from ..identity import key_of
 from ..read import working_space
 from ..read.known_objects import Known
-from ..read.scene_lights import FIELDS
 from ..read.scene_reading import ROW_PROPERTY, SceneReading, Skin, lit_per_pixel, read_scene
 from ..session import SESSION
 from ..show.frozen import is_frozen
-from ..show.group_nodes import GroupNodes, build_nodes, nodes_of
-from ..show.image_pairs import have_room
-from ..show.lut_image import Atlas, ensure_images, images_of
-from ..table.lut_layout import Layout, layout_of, plain_row, surface_row
+from ..show.group_nodes import nodes_of
+from ..show.lut_image import Atlas, images_of
+from ..table.lut_layout import plain_row, surface_row
 from ..table.occlusion import with_visible_fractions
-from ..table.skin_tables import Signature, Table, compute_table, signature_of
+from ..table.skin_tables import Table, compute_table, signature_of
 from ..table.texel_mapping import texels_per_mm
 from . import shape_answers, shape_update, waiting
 from .frozen_update import follow_frozen, mark_of
+from .needed_nodes import fit_nodes, is_fixed, make_room
+from .rebuilt import Rebuilt
 from .shape_tiles import hide_tiles, write_tiles
-
-
-class Rebuilt(NamedTuple):
-    """One skin's table that was recomputed."""
-
-    skin: str  #: name of the object
-    mode: str  #: 'VIEWPORT' or 'RENDER': the depsgraph mode it was computed for
-    before: Signature | None  #: signature of the previous table; None: there was none
-    after: Signature  #: signature of the new table
-    key: str = ""  #: identity.key_of the object
-
-    @property
-    def why(self) -> str:
-        """What changed, as text."""
-        return why_changed(self.before, self.after)
 
 
 def update_scene(
@@ -97,17 +81,12 @@ def update_scene(
     return rebuilt
 
 
-def _is_fixed(group: bpy.types.NodeTree) -> bool:
-    """Nodes cannot be added while rendering, nor to a group from a library."""
-    return SESSION.rendering or group.library is not None
-
-
 def _as_can_be(obj: bpy.types.Object, skin: Skin, depsgraph: bpy.types.Depsgraph) -> Skin:
     """The skin, lit per pixel if its light cannot be shown through its shape."""
     if skin.shape is None:
         return skin
     group = obj.skinglow.group
-    has_nodes = not _is_fixed(group) or nodes_of(group).tiles
+    has_nodes = not is_fixed(group) or nodes_of(group).tiles
     if shape_update.prepare(obj, skin, depsgraph, has_nodes).reason is None:
         return skin
     evaluated = obj.evaluated_get(depsgraph)
@@ -123,14 +102,14 @@ def _update_group(
     faults: dict[str, str],
 ) -> list[Rebuilt]:
     row_of = _separate_rows(group, members)
-    images = _make_room(group, max(skin.base[1] for _obj, skin in members), 1 + max(row_of.values()))
+    images = make_room(group, max(skin.base[1] for _obj, skin in members), 1 + max(row_of.values()))
     atlas = _atlas(group, mode, images)
     before = {key: (signature, atlas.rows.get(key)) for key, signature in atlas.signatures.items()}
     other = SESSION.atlases.get((key_of(group), "RENDER" if mode == "VIEWPORT" else "VIEWPORT"))
     kept = _keep(atlas, other, members) if only_live else set()
-    fixed = _is_fixed(group)
+    fixed = is_fixed(group)
     _compute(atlas, members, kept, reading, faults, fixed)
-    if _fit_nodes(group, atlas, members):
+    if fit_nodes(group, atlas, members):
         old, atlas = atlas, _atlas(group, mode, images_of(group))
         kept = _keep(atlas, old, members) if only_live else set()
         _compute(atlas, members, kept, reading, faults, fixed)
@@ -228,74 +207,6 @@ def _texels(table: Table, skin: Skin, atlas: Atlas) -> np.ndarray:
     return surface_row(columns, weight, table.lighting, depth_per_mm, atlas.layout)
 
 
-def _fit_nodes(group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]]) -> bool:
-    """Builds the nodes that the group's skins need; returns whether that invalidated the atlas."""
-    there = nodes_of(group)
-    wanted = _wanted_nodes(group, atlas, members, there)
-    if wanted == there or group.library is not None:
-        return False
-    if SESSION.rendering:
-        # Nodes that are no longer needed may stay.
-        if there.rows >= wanted.rows and there.tiles >= wanted.tiles and wanted.layout in (None, there.layout):
-            return False
-        raise SkinError(
-            "its material has too few nodes for these lights, and nodes cannot be added while rendering: "
-            "update before rendering"
-        )
-    if wanted.layout is not None:
-        ensure_images(group, wanted.layout.width, atlas.pixels.shape[0])
-    build_nodes(group, wanted)
-    return not atlas.fits(group)
-
-
-def _wanted_nodes(
-    group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]], there: GroupNodes
-) -> GroupNodes:
-    shapes = {skin.key for _obj, skin in members if skin.shape is not None}
-    # All of the file's objects are asked only where that may keep nodes that there are.
-    others = _Others(group, shapes)
-    by_tiles = bool(shapes) or (there.tiles and others.any(lambda s: s.mode == "PHYSICAL" and s.weights == "SHAPE"))
-    by_rows = len(shapes) < len(members) or (
-        there.rows and others.any(lambda s: s.mode != "PHYSICAL" or s.weights != "SHAPE")
-    )
-    if not by_rows:
-        return GroupNodes(None, tiles=True, rows=False)
-    return GroupNodes(_wanted_layout(atlas, members, others), tiles=by_tiles, rows=True)
-
-
-class _Others(NamedTuple):
-    """The skins of a group in the whole file, in other scenes too, but for some."""
-
-    group: bpy.types.NodeTree
-    left_out: set[str]
-
-    def any(self, holds: Callable[[bpy.types.PropertyGroup], bool]) -> bool:
-        """Whether the settings of one of them have a property."""
-        for obj in bpy.data.objects:
-            settings = obj.skinglow
-            if settings.enabled and obj.type == "MESH" and settings.group == self.group and holds(settings):
-                if key_of(obj) not in self.left_out:
-                    return True
-        return False
-
-
-def _wanted_layout(atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]], others: _Others) -> Layout | None:
-    """The layout of rows that are lit per pixel; None: plain rows."""
-    wanted = atlas.layout
-    tables = [atlas.tables[skin.key] for _obj, skin in members if skin.key in atlas.tables]
-    lit = [table for table in tables if table.lighting is not None]
-    if not lit and wanted is None:
-        return None
-    # The nodes for light per pixel are kept as long as any skin of the group may be lit so.
-    if not lit and not others.any(lambda s: s.mode == "PHYSICAL" and s.weights not in ("OBJECT", "SHAPE")):
-        return None
-    entries = max((len(table.colors) for table in tables), default=1)
-    for table in lit:
-        needed = layout_of(table.lighting, entries)
-        wanted = needed if wanted is None else wanted.joined(needed)
-    return wanted if wanted.entries >= entries else wanted._replace(entries=entries)
-
-
 def _atlas(group: bpy.types.NodeTree, mode: str, images: list[bpy.types.Image]) -> Atlas:
     key = (key_of(group), mode)
     atlas = SESSION.atlases.get(key)
@@ -330,17 +241,6 @@ def _other_owner(group: bpy.types.NodeTree, place: tuple[str, int], me: str) -> 
     return other is not None and other.skinglow.group == group and other.skinglow.row == place[1]
 
 
-def _make_room(group: bpy.types.NodeTree, width: int, rows: int) -> list[bpy.types.Image]:
-    """Enlarges the group's images if they are too small; returns them."""
-    images = images_of(group)
-    if have_room(images, width, rows):
-        return images
-    if SESSION.rendering:
-        raise SkinError("its images are too small and cannot be enlarged while rendering: update before rendering")
-    ensure_images(group, width, rows)
-    return images_of(group)
-
-
 def _set_row_property(obj: bpy.types.Object, skin: Skin, atlas: Atlas, row: int) -> None:
     """Sets the property from which the object's material reads its row and the mapping from thickness to texel."""
     height, width = atlas.pixels.shape[:2]
@@ -351,43 +251,3 @@ def _set_row_property(obj: bpy.types.Object, skin: Skin, atlas: Atlas, row: int)
         # In an animation render the object itself is at the frame where that began: its keys have to be evaluated
         # again. In the viewport that would take back what was edited and not keyed yet.
         obj.update_tag(refresh={"OBJECT", "TIME"} if atlas.mode == "RENDER" else {"OBJECT"})
-
-
-#: Fields of a signature as text.
-REASONS = {
-    "base": "base lookup",
-    "blood_weight": "blood weight",
-    "attenuation": "attenuation",
-    "point": "reference point",
-    "weights": "weights",
-    "surface": "its position or shape",
-    "shape": "its position, size, cells or medium",
-    "mesh": "its mesh",
-    "world": "world",
-}
-
-
-def _by_name(signature: Signature) -> dict[str, list[tuple]]:
-    """The lights of a signature; instances, and lights of libraries, may have one name."""
-    found: dict[str, list[tuple]] = {}
-    for light in signature.lights:
-        found.setdefault(light[0], []).append(light)
-    return found
-
-
-def why_changed(before: Signature | None, after: Signature) -> str:
-    """The difference between two signatures, as text."""
-    if before is None:
-        return "first computed"
-    if before.mode != after.mode:
-        return f"mode {before.mode.lower()} to {after.mode.lower()}"
-    reasons = [words for name, words in REASONS.items() if getattr(before, name) != getattr(after, name)]
-    old, new = _by_name(before), _by_name(after)
-    reasons += [f"light '{name}' added" for name in new if len(new[name]) > len(old.get(name, ()))]
-    reasons += [f"light '{name}' removed" for name in old if len(old[name]) > len(new.get(name, ()))]
-    for name in new:
-        if len(old.get(name, ())) == len(new[name]) and old[name] != new[name]:
-            pairs = zip(zip(*old[name], strict=True), zip(*new[name], strict=True), strict=True)
-            changed = [field for field, (a, b) in zip(FIELDS, pairs, strict=True) if a != b]
-            reasons.append(f"light '{name}': {', '.join(changed)}")
-    return "; ".join(reasons) or "its row in the image"

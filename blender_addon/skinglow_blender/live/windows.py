@@ -12,7 +12,8 @@ from ..read.known_objects import Known
 from ..session import SESSION
 from ..show.mask import mask_groups, store_masks
 from .guard import faults_shown, has_skins
-from .live_update import Rebuilt, update_scene
+from .live_update import update_scene
+from .rebuilt import Rebuilt
 from .shape_tiles import store_missing_tiles
 
 #: Seconds from a request to the update.

@@ -11,13 +11,19 @@ import numpy as np
 from ..errors import core
 
 #: Mesh properties stored when its thickness was measured: edge length of its unit cube in the world, scene units;
-#: number of its vertices, and index and position of some; millimeters per scene unit; bounding cone of its normals in
-#: object space (axis, half angle in radians).
+#: matrix of its object without the position, by rows; number of its vertices, and index and position of some;
+#: millimeters per scene unit; bounding cone of its normals in object space (axis, half angle in radians).
 MEASURED_SIZE = "skinglow_world_size"
+MEASURED_MATRIX = "skinglow_matrix"
 MEASURED_SAMPLES = "skinglow_samples"
 MEASURED_UNIT = "skinglow_unit_mm"
 MEASURED_CONE = "skinglow_normal_cone"
 SAMPLES = 8
+
+
+def matrix_of(obj: bpy.types.Object) -> list[float]:
+    """The value of MEASURED_MATRIX."""
+    return [value for row in obj.matrix_world.to_3x3() for value in row]
 
 
 def samples_of(mesh: bpy.types.Mesh) -> list[float]:
@@ -69,3 +75,16 @@ def mesh_scale(mesh: bpy.types.Mesh) -> float | None:
     if now == then:
         return 1.0
     return core().uniform_scale(then, now)
+
+
+def is_stretched(obj: bpy.types.Object) -> bool:
+    """Whether an object of a measured mesh was scaled by unlike factors since, which no one thickness follows."""
+    stored, samples = obj.data.get(MEASURED_MATRIX), obj.data.get(MEASURED_SAMPLES)
+    now = matrix_of(obj)
+    if stored is None or samples is None or list(stored) == now or mesh_scale(obj.data) is None:
+        return False
+    samples = samples[:]  # as a list, which has slices with steps
+    indices = [int(i) for i in samples[1::4]]
+    before = np.transpose([samples[2::4], samples[3::4], samples[4::4]]) @ np.reshape(stored, (3, 3)).T
+    after = np.array([obj.data.vertices[i].co for i in indices]) @ np.reshape(now, (3, 3)).T
+    return core().uniform_scale(before, after) is None

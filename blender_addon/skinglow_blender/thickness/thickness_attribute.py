@@ -8,7 +8,16 @@ import numpy as np
 
 from ..errors import SkinError, core
 from ..read.measured_geometry import Geometry, mesh_digest, read_geometry
-from ..read.measured_size import MEASURED_CONE, MEASURED_SAMPLES, MEASURED_SIZE, MEASURED_UNIT, mesh_scale, samples_of
+from ..read.measured_size import (
+    MEASURED_CONE,
+    MEASURED_MATRIX,
+    MEASURED_SAMPLES,
+    MEASURED_SIZE,
+    MEASURED_UNIT,
+    matrix_of,
+    mesh_scale,
+    samples_of,
+)
 
 THICKNESS_ATTRIBUTE = "skinglow_thickness"
 #: 1 where the thickness is known. Blender fills both attributes with 0 at vertices that they were not written for.
@@ -153,6 +162,7 @@ def store(
     mesh.pop(NO_FAR_SIDE, None)
     mesh.pop(MEASURED_MESH, None)
     mesh[MEASURED_SIZE] = abs(obj.matrix_world.to_3x3().determinant()) ** (1.0 / 3.0)
+    mesh[MEASURED_MATRIX] = matrix_of(obj)
     mesh[MEASURED_SAMPLES] = samples_of(mesh)
     mesh[MEASURED_UNIT] = unit_mm
     normals = np.empty(3 * len(mesh.vertices), np.float32)
@@ -197,6 +207,7 @@ def remove(mesh: bpy.types.Mesh) -> None:
             mesh.attributes.remove(attribute)
     for name in (
         MEASURED_SIZE,
+        MEASURED_MATRIX,
         MEASURED_SAMPLES,
         MEASURED_UNIT,
         MEASURED_CONE,

@@ -1,33 +1,46 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Word-wrapped text in panels: Blender truncates labels at the panel's edge."""
 
-import textwrap
+from collections.abc import Callable, Iterator
 
 import blf
 import bpy
 
 #: Widths of an icon and of the margins of a panel and a box in it, in units of Blender's interface scale.
 ICON, EDGES = 22.0, 66.0
-MIN_CHARACTERS = 16
+MIN_WIDTH = 96.0
+FONT = 0
 
 
 def draw_wrapped(layout: bpy.types.UILayout, text: str, context: bpy.types.Context, icon: str) -> None:
     """Draws the text as lines of labels, wrapped to the width of the current region."""
-    for line in textwrap.wrap(text, characters_per_line(context)):
+    system, styles = context.preferences.system, context.preferences.ui_styles
+    size = (styles[0].widget.points if styles else 11.0) * system.ui_scale
+    if bpy.app.version < (4, 0, 0):
+        blf.size(FONT, size, 72)
+    else:
+        blf.size(FONT, size)
+    region = context.region.width if context.region is not None else 0.0
+    width = max(region - (ICON + EDGES) * system.ui_scale, MIN_WIDTH * system.ui_scale)
+    for line in wrapped(text, width, lambda part: blf.dimensions(FONT, part)[0]):
         layout.label(text=line, icon=icon)
         icon = "BLANK1"
 
 
-def characters_per_line(context: bpy.types.Context) -> int:
-    """Number of average characters of the interface font that fit next to an icon."""
-    system = context.preferences.system
-    points = context.preferences.ui_styles[0].widget.points if context.preferences.ui_styles else 11.0
-    font = 0
-    if bpy.app.version < (4, 0, 0):
-        blf.size(font, points * system.ui_scale, 72)
-    else:
-        blf.size(font, points * system.ui_scale)
-    sample = "its collection is hidden or excluded"
-    character = blf.dimensions(font, sample)[0] / len(sample)
-    width = context.region.width - (ICON + EDGES) * system.ui_scale if context.region is not None else 0.0
-    return max(MIN_CHARACTERS, int(width / max(character, 1.0)))
+def wrapped(text: str, width: float, width_of: Callable[[str], float]) -> Iterator[str]:
+    """The text in lines of at most that width, broken at spaces, and inside of a word only where that is too wide."""
+    line = ""
+    for word in text.split():
+        longer = f"{line} {word}" if line else word
+        if width_of(longer) <= width:
+            line = longer
+            continue
+        if line:
+            yield line
+        line = word
+        while len(line) > 1 and width_of(line) > width:
+            fits = next(n for n in range(len(line) - 1, 0, -1) if n == 1 or width_of(line[:n]) <= width)
+            yield line[:fits]
+            line = line[fits:]
+    if line:
+        yield line

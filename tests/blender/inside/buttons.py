@@ -7,6 +7,7 @@ import numpy as np
 import skinglow_blender as sb
 from skinglow_blender.session import SESSION
 from skinglow_blender.ui import manual, menus
+from skinglow_blender.ui.wrapped_text import wrapped
 
 from inside.bad_input import refused
 from inside.scenes import add_light, assert_fresh, camera_above, depsgraph, patch
@@ -164,3 +165,23 @@ def check_select_a_skin_with_a_fault(_work):
     other.hide_set(True)
     depsgraph()
     refused(RuntimeError, "No skin has a fault", bpy.ops.skinglow.select_faulty)
+
+
+def check_text_is_wrapped_to_its_width(_work):
+    """No line is cut at the panel's edge, whatever its characters; nothing is lost."""
+    wide = {"%": 3.0, "i": 0.5}
+
+    def width_of(text):
+        return sum(wide.get(letter, 1.0) for letter in text)
+
+    for text in (
+        "Estimated error 59%, 104%, 133% (R, G, B)",
+        "a",
+        "",
+        "/home/someone/a/path/without/spaces.exr fails %%%%%%%%%",
+    ):
+        for width in (3.0, 7.0, 12.0, 100.0):
+            lines = list(wrapped(text, width, width_of))
+            assert all(width_of(line) <= width for line in lines), (text, width, lines)
+            assert "".join(lines).replace(" ", "") == text.replace(" ", "")
+            assert len(lines) <= 1 or width < width_of(text)

@@ -5,7 +5,7 @@ import numpy as np
 import skinglow_blender as sb
 from skinglow_blender.batch import rigs
 from skinglow_blender.identity import HAS_UID, key_of
-from skinglow_blender.live.live_update import why_changed
+from skinglow_blender.live.rebuilt import why_changed
 from skinglow_blender.session import SESSION
 
 from inside.scenes import BLOOD, add_light, camera_above, depsgraph, link, patch, render_settings

@@ -11,7 +11,7 @@ from skinglow_blender.thickness.thickness_attribute import KNOWN_ATTRIBUTE
 
 from inside.bad_input import refused
 from inside.measured_as_shown import plate
-from inside.scenes import add_light, camera_above, depsgraph, render_settings
+from inside.scenes import add_light, camera_above, depsgraph, link, render_settings
 
 
 def healthy_skin():
@@ -107,6 +107,32 @@ def check_no_false_alarm(_work):
     assert sb.health(obj) == []
     sb.make_skin(obj, thickness=[1.0] * len(obj.data.vertices), mode="paper")
     sculpt(obj)
+    assert sb.health(obj) == []
+
+
+def check_uneven_scale_is_told(_work):
+    """By the object, its parent or both at once; not where they cancel out, nor after measuring again."""
+    obj = healthy_skin()
+    parent = link(bpy.data.objects.new("Parent", None))
+    obj.parent = parent
+    for own, parents, is_told in (
+        ((1, 1.2, 1), (1, 1, 1), True),
+        ((1, 1, 1), (1, 1, 0.8), True),
+        ((1, 2, 1), (1, 0.5, 1), False),
+        ((3, 3, 3), (-1, 1, 1), False),
+    ):
+        obj.scale, parent.scale = own, parents
+        depsgraph()
+        found = sb.health(obj)
+        assert len(found) == is_told, (own, parents, found)
+        assert all("scaled unevenly" in fault.what and fault.is_hint for fault in found)
+    obj.scale, parent.scale, parent.rotation_euler = (1, 1, 1.5), (1, 1, 1), (0.3, 0.2, 0.1)
+    depsgraph()
+    assert sb.health(obj)
+    assert bpy.ops.skinglow.measure_thickness() == {"FINISHED"}
+    assert sb.health(obj) == []
+    obj.scale = (2, 2, 3)
+    depsgraph()
     assert sb.health(obj) == []
 
 

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The nodes and images that the skins of a node group need: built before they are used, never while rendering."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import bpy
+
+from ..errors import SkinError
+from ..identity import key_of
+from ..read.scene_reading import Skin
+from ..session import SESSION
+from ..show.group_nodes import GroupNodes, build_nodes, nodes_of
+from ..show.image_pairs import have_room
+from ..show.lut_image import Atlas, ensure_images, images_of
+from ..table.lut_layout import Layout, layout_of
+
+
+def is_fixed(group: bpy.types.NodeTree) -> bool:
+    """Nodes cannot be added while rendering, nor to a group from a library."""
+    return SESSION.rendering or group.library is not None
+
+
+def make_room(group: bpy.types.NodeTree, width: int, rows: int) -> list[bpy.types.Image]:
+    """Enlarges the group's images if they are too small; returns them."""
+    images = images_of(group)
+    if have_room(images, width, rows):
+        return images
+    if SESSION.rendering:
+        raise SkinError("its images are too small and cannot be enlarged while rendering: update before rendering")
+    ensure_images(group, width, rows)
+    return images_of(group)
+
+
+def fit_nodes(group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]]) -> bool:
+    """Builds the nodes that the group's skins need; returns whether that invalidated the atlas."""
+    there = nodes_of(group)
+    wanted = _wanted_nodes(group, atlas, members, there)
+    if wanted == there or group.library is not None:
+        return False
+    if SESSION.rendering:
+        # Nodes that are no longer needed may stay.
+        if there.rows >= wanted.rows and there.tiles >= wanted.tiles and wanted.layout in (None, there.layout):
+            return False
+        raise SkinError(
+            "its material has too few nodes for these lights, and nodes cannot be added while rendering: "
+            "update before rendering"
+        )
+    if wanted.layout is not None:
+        ensure_images(group, wanted.layout.width, atlas.pixels.shape[0])
+    build_nodes(group, wanted)
+    return not atlas.fits(group)
+
+
+def _wanted_nodes(
+    group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]], there: GroupNodes
+) -> GroupNodes:
+    shapes = {skin.key for _obj, skin in members if skin.shape is not None}
+    # All of the file's objects are asked only where that may keep nodes that there are.
+    others = _Others(group, shapes)
+    by_tiles = bool(shapes) or (there.tiles and others.any(lambda s: s.mode == "PHYSICAL" and s.weights == "SHAPE"))
+    by_rows = len(shapes) < len(members) or (
+        there.rows and others.any(lambda s: s.mode != "PHYSICAL" or s.weights != "SHAPE")
+    )
+    if not by_rows:
+        return GroupNodes(None, tiles=True, rows=False)
+    return GroupNodes(_wanted_layout(atlas, members, others), tiles=by_tiles, rows=True)
+
+
+class _Others(NamedTuple):
+    """The skins of a group in the whole file, in other scenes too, but for some."""
+
+    group: bpy.types.NodeTree
+    left_out: set[str]
+
+    def any(self, holds: Callable[[bpy.types.PropertyGroup], bool]) -> bool:
+        """Whether the settings of one of them have a property."""
+        for obj in bpy.data.objects:
+            settings = obj.skinglow
+            if settings.enabled and obj.type == "MESH" and settings.group == self.group and holds(settings):
+                if key_of(obj) not in self.left_out:
+                    return True
+        return False
+
+
+def _wanted_layout(atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]], others: _Others) -> Layout | None:
+    """The layout of rows that are lit per pixel; None: plain rows."""
+    wanted = atlas.layout
+    tables = [atlas.tables[skin.key] for _obj, skin in members if skin.key in atlas.tables]
+    lit = [table for table in tables if table.lighting is not None]
+    if not lit and wanted is None:
+        return None
+    # The nodes for light per pixel are kept as long as any skin of the group may be lit so.
+    if not lit and not others.any(lambda s: s.mode == "PHYSICAL" and s.weights not in ("OBJECT", "SHAPE")):
+        return None
+    entries = max((len(table.colors) for table in tables), default=1)
+    for table in lit:
+        needed = layout_of(table.lighting, entries)
+        wanted = needed if wanted is None else wanted.joined(needed)
+    return wanted if wanted.entries >= entries else wanted._replace(entries=entries)
