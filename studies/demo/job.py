@@ -27,7 +27,13 @@ EXPOSURE_STOPS = 2.0
 ORANGE, BLUE = (1.0, 112 / 255, 69 / 255), (15 / 255, 64 / 255, 1.0)  # two lights of Table 1
 
 #: As POV-Ray samples pixels; transmitted light alone has no noise.
-EXACT = {"pixel_filter_type": "BOX", "samples": 64, "use_denoising": False, "use_adaptive_sampling": False}
+EXACT = {
+    "pixel_filter_type": "BOX",
+    "samples": 64,
+    "use_denoising": False,
+    "use_adaptive_sampling": False,
+    "sample_clamp_direct": 0.0,
+}
 
 
 class Studio:
@@ -39,6 +45,7 @@ class Studio:
         self.scene = bpy.context.scene
         studio.settings(self.scene, job["size"], job["size"], job["samples"])
         studio.show_as_it_is(self.scene)
+        studio.quicken(self.scene)
         self.head = bpy.data.objects["head"]
         self.ear = ear = Ear(np.array(job["ear"]["center"]), job["ear"]["size"], job["ear"]["side"])
         self.cameras = {

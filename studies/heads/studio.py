@@ -38,6 +38,13 @@ def settings(scene: bpy.types.Scene, width: int, height: int, samples: int) -> N
     scene.view_settings.exposure = EXPOSURE_STOPS
 
 
+def quicken(scene: bpy.types.Scene) -> None:
+    """For pictures shown small: a viewer sees no difference, and each takes half the time."""
+    cycles = scene.cycles
+    cycles.denoising_prefilter = "FAST"
+    cycles.sample_clamp_direct = 4.0  # of few samples, one that meets a glint on a hair is a white dot
+
+
 def show_as_it_is(scene: bpy.types.Scene) -> None:
     """Linear light by sRGB's curve, and no more: pictures that are compared."""
     scene.view_settings.view_transform, scene.view_settings.exposure = "Standard", 0.0

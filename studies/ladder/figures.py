@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter, PercentFormatter, StrMethodFormatter
 
 from studies.figures import COLORS, MARKS, plt, save, to_screen
-from studies.ladder.results import BY_EYE, RIG_NAMES, RUNGS, Results
+from studies.ladder.results import BY_EYE, RIG_NAMES, RUNGS, Results, equal_samples
 
 
 def error_against_time(path: Path, head: Results) -> None:
@@ -55,18 +55,17 @@ def pictures(path: Path, head: Results) -> None:
             if rig == head.rigs[0]:
                 ax.set_title(title, fontsize=8)
             if name == "mc":
-                picture = 0.5 * (head.pictures[f"{rig}|mc 1"] + head.pictures[f"{rig}|mc 2"])
-            elif name in ("walk", "equal"):
-                key, samples = head.equal_time(rig)
-                halves = [head.pictures[f"{rig}|reference {n}"] for n in (1, 2)]
-                picture = head.pictures[key] if name == "equal" else 0.5 * (halves[0] + halves[1])
-                picture = picture * walk.best_factor_to(truth)
-                if name == "equal":
-                    ax.set_xlabel(f"{samples} samples", fontsize=7)
+                picture = 0.5 * (head.picture(rig, "mc 1") + head.picture(rig, "mc 2"))
+            elif name == "walk":
+                picture = 0.5 * sum(head.picture(rig, half) for half in head.halves) * walk.best_factor_to(truth)
+            elif name == "equal":
+                samples = equal_samples(head.cells, rig, head.samples)
+                picture = head.picture(rig, f"equal {samples}") * walk.best_factor_to(truth)
+                ax.set_xlabel(f"{samples} samples", fontsize=7)
             else:
                 factor = truth.best_factor(head.of(rig, name)) if name in BY_EYE else 1.0
-                picture = factor * head.pictures[f"{rig}|{name}"]
-                ax.set_xlabel(f"{head.seconds[f'{rig}|{name}']:.2f} s", fontsize=7)
+                picture = factor * head.picture(rig, name)
+                ax.set_xlabel(f"{head.seconds(rig, name):.2f} s", fontsize=7)
             ax.imshow(to_screen(exposure * picture[:, :, :3]), interpolation="nearest")
         line[0].set_ylabel(RIG_NAMES[rig], fontsize=8)
     save(rows, path, dpi=100)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +18,8 @@ from skinglow_blender.batch.rig_lights import added_lights
 from studies import rendering, skins
 from studies import scenes as stage
 from studies.in_blender import Steps
+from studies.ladder.cells import Cells
+from studies.ladder.results import equal_samples
 from studies.medium import SKIN1
 from studies.timing import timed
 
@@ -51,24 +55,21 @@ def build(job: dict[str, Any]) -> tuple[bpy.types.Scene, bpy.types.Object, Vecto
 
 
 class Ladder:
-    """Pictures and CPU seconds by (rig, rung)."""
+    """Renders what its cells do not have yet."""
 
     def __init__(self, job: dict[str, Any]) -> None:
         self.scene, self.head, self.ear = build(job)
-        self.out = Path(job["out"])
+        self.out, self.samples = Path(job["out"]), job["samples"]
         self.rigs = {name: sg.read_light_rig(path) for name, path in job["rigs"].items()}
-        self.pictures: dict[str, np.ndarray] = {}
-        self.seconds: dict[str, float] = {}
-        self.prepared: dict[str, float] = {}
+        self.cells = Cells(Path(job["cells"]))
 
-    def render(self, name: str, samples: int, seed: int = 0, repeats: int = 1, before: float = 0.0) -> float:
-        """The least CPU seconds of the renders, and `before`, what an update before them took."""
+    def render(self, name: str, samples: int, seed: int = 0, repeats: int = 1, **also: float) -> None:
+        """Keeps a picture with the least CPU seconds of its renders; also: what was made ready for it (CPU s)."""
         found = [rendering.render(self.scene, samples, seed, self.out) for _ in range(repeats)]
-        self.pictures[name] = found[-1].pixels
-        self.seconds[name] = before + min(each.cpu_seconds for each in found)
-        return self.seconds[name]
+        seconds = min(each.cpu_seconds for each in found) + also.get("update", 0.0)
+        self.cells.keep(name, found[-1].pixels, seconds, also.get("prepared", 0.0))
 
-    def lit(self, rig: str) -> Any:  # noqa: ANN401  a context manager
+    def lit(self, rig: str) -> AbstractContextManager[object]:
         return added_lights(self.scene, self.rigs[rig], tuple(self.ear))
 
     def show_attributes(self, path: Path) -> None:
@@ -79,16 +80,33 @@ class Ladder:
                 rendering.assign_material(self.head, rendering.shown_attribute(name))
                 self.render(name, 8)
 
-    def show_lookup(self, rung: str) -> None:
-        """The first rig makes the skin ready, and that is not timed with the pictures."""
+    def show_lookup(self, rung: str, say: Callable[[str], None]) -> None:
+        """The last rig makes the skin ready, and that is not timed with the pictures."""
+        if all(f"{rig}|{rung}" in self.cells for rig in self.rigs):
+            return
+        say(f"{rung}: the skin, and a picture under each rig")
         with skins.tables_of(SKIN1):
             with self.lit(next(reversed(self.rigs))):
-                _, self.prepared[rung] = timed(skins.make, self.head, SKIN1, **LOOKUPS[rung])
+                _, prepared = timed(skins.make, self.head, SKIN1, **LOOKUPS[rung])
             for rig in self.rigs:
                 with self.lit(rig):
                     _, update = timed(skins.update, self.head)
-                    self.render(f"{rig}|{rung}", SAMPLES, repeats=REPEATS, before=update)
+                    self.render(f"{rig}|{rung}", SAMPLES, repeats=REPEATS, update=update, prepared=prepared)
             sb.remove_skin(self.head)
+
+    def walk(self, rig: str, what: str, samples: int, seed: int) -> None:
+        if f"{rig}|{what}" not in self.cells:
+            self.render(f"{rig}|{what}", samples, seed)
+
+    def show_walks(self, rig: str, fewer: list[int]) -> None:
+        """Walks of fewer samples, the halves of the reference, together a rung too, and that of equal time."""
+        with self.lit(rig):
+            for samples in fewer:
+                self.walk(rig, f"walk {samples}", samples, 10 + samples)
+            for seed in SEEDS:
+                self.walk(rig, f"half {self.samples} {seed}", self.samples // 2, seed)
+            equal = equal_samples(self.cells, rig, self.samples)
+            self.walk(rig, f"equal {equal}", equal, 7)
 
 
 def main(job: dict[str, Any]) -> dict[str, Any]:
@@ -98,19 +116,9 @@ def main(job: dict[str, Any]) -> dict[str, Any]:
     step("what is compared, and the Monte Carlo")
     ladder.show_attributes(Path(job["attributes"]))
     for rung in LOOKUPS:
-        step(f"{rung}: the skin, and a picture under each rig")
-        ladder.show_lookup(rung)
+        ladder.show_lookup(rung, step)
     rendering.assign_material(ladder.head, rendering.random_walk(SKIN1))
     for rig in ladder.rigs:
         step(f"random walk under the rig {rig}")
-        with ladder.lit(rig):
-            for samples in job["walk_samples"]:
-                ladder.render(f"{rig}|walk {samples}", samples, 10 + samples)
-            for seed in SEEDS:
-                ladder.render(f"{rig}|reference {seed}", job["samples"], seed)
-            few, many = job["walk_samples"][0], job["samples"]
-            each = (ladder.seconds[f"{rig}|reference 1"] - ladder.seconds[f"{rig}|walk {few}"]) / (many - few)
-            equal = max(1, round(ladder.seconds[f"{rig}|shape 0.8"] / each))
-            ladder.render(f"{rig}|equal time {equal}", equal, 7)
-    np.savez_compressed(job["pictures"], **{name: each.astype(np.float32) for name, each in ladder.pictures.items()})
-    return {"blender": job["host"], "seconds": ladder.seconds, "prepared": ladder.prepared, "samples": job["samples"]}
+        ladder.show_walks(rig, job["walk_samples"])
+    return {}

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from studies.errors import Error, Reference
+from studies.ladder.cells import Cells
 
 #: Rungs by what they are called in figures; walks are beside them.
 RUNGS = {
@@ -24,6 +24,8 @@ RUNGS = {
 }
 #: These have no unit of light: their strength is chosen by eye.
 BY_EYE = ("fixed", "tinted", "eevee")
+#: Samples of random walks, beside those of the reference.
+WALKS = (1, 4, 16, 64, 256, 1024)
 RIG_NAMES = {
     "behind": "bulb behind",
     "beside": "spot beside",
@@ -46,57 +48,61 @@ class Step(NamedTuple):
         return min(self.monte_carlo.rms, self.monte_carlo_at_best.rms)
 
 
+def equal_samples(cells: Cells, rig: str, many: int) -> int:
+    """Samples of the walk that takes as long as a moved light through the shape at .8 mm."""
+    half, one = cells[f"{rig}|half {many} 1"].seconds, cells[f"{rig}|walk 1"].seconds
+    return max(1, round(cells[f"{rig}|shape 0.8"].seconds / ((half - one) / (many // 2 - 1))))
+
+
 @dataclass
 class Results:
     head: str
     title: str
-    files: list[Path]
-    told: dict[str, Any]  #: by the jobs "cycles" and "eevee"
+    cells: Cells
     rigs: list[str]
+    samples: int  # of both halves of the walk together
+    versions: tuple[str, str]  # of the Blenders of Cycles and EEVEE
+
+    def __post_init__(self) -> None:
+        self._read: dict[str, np.ndarray] = {}
+
+    def picture(self, rig: str, what: str) -> np.ndarray:
+        """(height, width, 4), linear."""
+        name = f"{rig}|{what}"
+        if name not in self._read:
+            self._read[name] = self.cells[name].pixels
+        return self._read[name]
+
+    def seconds(self, rig: str, what: str) -> float:
+        return self.cells[f"{rig}|{what}"].seconds
+
+    def prepared(self, rung: str) -> float:
+        """CPU seconds before the first picture of a rung, with all of the head's skin."""
+        return self.cells[f"{self.rigs[0]}|{rung}"].prepared
 
     @cached_property
-    def pictures(self) -> dict[str, np.ndarray]:
-        """(height, width, 4) linear, by "rig|what"."""
-        found: dict[str, np.ndarray] = {}
-        for path in self.files:
-            with np.load(path) as file:
-                found |= {name: file[name].astype(float) for name in file.files}
-        return found
-
-    @cached_property
-    def seconds(self) -> dict[str, float]:
-        return self.told["cycles"]["seconds"] | self.told["eevee"]["seconds"]
-
-    @cached_property
-    def walks(self) -> list[int]:
-        """Samples of the walks, the halves of the reference among them."""
-        counts = {int(n.split("walk ")[1]) for n in self.pictures if "|walk " in n}
-        return sorted(counts)
+    def halves(self) -> tuple[str, str]:
+        return f"half {self.samples} 1", f"half {self.samples} 2"
 
     def compared(self, rig: str) -> np.ndarray:
         """The pixels of back-lit skin of the ear alone."""
-        dark = self.pictures[f"{rig}|dark"]
+        dark = self.picture(rig, "dark")
         return (dark[:, :, 0] > 0.999) & (dark[:, :, 3] > 0.999)
 
     def of(self, rig: str, what: str) -> np.ndarray:
         """The compared pixels, (n, 3)."""
-        return self.pictures[f"{rig}|{what}"][self.compared(rig)][:, :3]
+        return self.picture(rig, what)[self.compared(rig)][:, :3]
 
     def monte_carlo(self, rig: str) -> Reference:
         return Reference(self.of(rig, "mc 1"), self.of(rig, "mc 2"))
 
     def walk(self, rig: str) -> Reference:
-        return Reference(self.of(rig, "reference 1"), self.of(rig, "reference 2"))
-
-    def equal_time(self, rig: str) -> tuple[str, int]:
-        """The walk that takes as long as a moved light through the shape: its picture, and its samples."""
-        name = next(name for name in self.pictures if name.startswith(f"{rig}|equal time"))
-        return name, int(name.rsplit(" ", 1)[1])
+        return Reference(*(self.of(rig, half) for half in self.halves))
 
     def step(self, rig: str, rung: str) -> Step:
         pixels, truth, walk = self.of(rig, rung), self.monte_carlo(rig), self.walk(rig)
         return Step(
-            self.seconds[f"{rig}|{rung}"],
+            self.seconds(rig, rung),
             truth.error(pixels),
             truth.error_at_best(pixels),
             walk.error(pixels),
@@ -108,18 +114,14 @@ class Results:
         return {(rig, rung): self.step(rig, rung) for rig in self.rigs for rung in RUNGS}
 
     def walk_errors(self, rig: str) -> list[tuple[int, float, float]]:
-        """Samples, CPU seconds, and the walk's own noise against its converged picture."""
+        """Samples, CPU seconds, and the walk's noise; that of the converged picture by its halves' difference."""
+        samples = [n for n in WALKS if n < self.samples]
         found = [
-            (n, self.seconds[f"{rig}|walk {n}"], self.walk(rig).error(self.of(rig, f"walk {n}")).rms)
-            for n in self.walks
+            (n, self.seconds(rig, f"walk {n}"), self.walk(rig).error(self.of(rig, f"walk {n}")).rms) for n in samples
         ]
-        halves = self.walk(rig)
-        each = float(np.sqrt(((halves.first - halves.second) ** 2).mean() / 2.0) / halves.mean.mean())
-        return [*found, (self.samples, self.seconds[f"{rig}|reference 1"], each)]
-
-    @property
-    def samples(self) -> int:
-        return self.told["cycles"]["samples"]
+        both = self.walk(rig)
+        seconds = sum(self.seconds(rig, half) for half in self.halves)
+        return [*found, (self.samples, seconds, both.noise)]
 
     def mean(self, rung: str, value: str) -> float:
         """Over the rigs, root mean square of an error (by its name in Step) or the mean of the seconds."""

@@ -40,8 +40,8 @@ def ladder(found: list[Results], options: argparse.Namespace) -> str:
                 percent(head.mean(rung, "walk_at_best")),
                 seconds(head.mean(rung, "seconds")),
             ]
-        once = [head.told["cycles"]["prepared"].get(rung) for head in found]
-        row.append("" if once[0] is None else " / ".join(f"{each:.1f} s" for each in once))
+        once = [head.prepared(rung) for head in found]
+        row.append(" / ".join(f"{each:.1f} s" for each in once) if rung != "eevee" else "")
         rows.append(row)
     walks = []
     for index, (samples, *_rest) in enumerate(found[0].walk_errors(found[0].rigs[0])):
@@ -50,7 +50,7 @@ def ladder(found: list[Results], options: argparse.Namespace) -> str:
             each = [head.walk_errors(rig)[index] for rig in head.rigs]
             row += ["", "", percent(float(np.sqrt(np.mean([e[2] ** 2 for e in each])))), seconds(each[0][1])]
         walks.append([*row, ""])
-    cycles, eevee = found[0].told["cycles"]["blender"], found[0].told["eevee"]["blender"]
+    cycles, eevee = found[0].versions
     pixels = ", ".join(f"{int(np.mean([h.compared(r).sum() for r in h.rigs])):,}" for h in found)
     noise = max(h.monte_carlo(r).noise for h in found for r in h.rigs)
     about = (
