@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import bmesh
@@ -191,7 +192,7 @@ AOV = "Transmitted Light"
 
 
 def add_light_aov(scene: bpy.types.Scene, head: bpy.types.Object) -> None:
-    """Connects the Light of the head's Skinglow node with an AOV of the view layer."""
+    """Connects the Light of the head's Skinglow node with AOV, an AOV of the view layer."""
     tree = head.active_material.node_tree
     light = next(n.outputs["Light"] for n in tree.nodes if n.bl_idname == "ShaderNodeGroup")
     out = tree.nodes.new("ShaderNodeOutputAOV")
@@ -204,9 +205,8 @@ def add_light_aov(scene: bpy.types.Scene, head: bpy.types.Object) -> None:
     aov.name, aov.type = AOV, "COLOR"
 
 
-@contextmanager
-def shown_pass(scene: bpy.types.Scene, name: str) -> Iterator[None]:
-    """Context manager in which renders show a pass in place of the picture."""
+def show_pass(scene: bpy.types.Scene, name: str) -> None:
+    """Renders show a pass in place of the picture."""
     if bpy.app.version >= (5, 0, 0):
         tree = bpy.data.node_groups.new("Pass", "CompositorNodeTree")
         tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
@@ -218,6 +218,12 @@ def shown_pass(scene: bpy.types.Scene, name: str) -> Iterator[None]:
         tree.nodes.clear()
         out = tree.nodes.new("CompositorNodeComposite")
     tree.links.new(tree.nodes.new("CompositorNodeRLayers").outputs[name], out.inputs[0])
+
+
+@contextmanager
+def shown_pass(scene: bpy.types.Scene, name: str) -> Iterator[None]:
+    """Context manager in which renders show a pass in place of the picture."""
+    show_pass(scene, name)
     try:
         yield
     finally:
@@ -275,17 +281,29 @@ def remove_lights() -> None:
         bpy.data.objects.remove(old)
 
 
+def add_light(scene: bpy.types.Scene, light: sg.Light) -> bpy.types.Object:
+    """Adds a light as the add-on adds those of a rig; scene units are meters."""
+    rig = SimpleNamespace(lights=[light], point=(0.0, 0.0, 0.0), notes=[])
+    (added,), notes = add_lights(scene, rig, None)
+    if notes:
+        raise ValueError("; ".join(notes))
+    bpy.context.view_layer.update()
+    return added
+
+
+def toward(position: Vector, target: Vector) -> tuple[float, ...]:
+    """The direction of a light at a position that looks at a target."""
+    return tuple((target - position).normalized())
+
+
 def light_behind_ear(scene: bpy.types.Scene, head: bpy.types.Object) -> bpy.types.Object:
     """A warm bulb of 2 W, 15 cm behind the ear found by `views_of`; replaces all other lights."""
     remove_lights()
     ear, _height = views_of(head)["_ear"]
-    data = bpy.data.lights.new("behind the ear", "POINT")
-    data.color, data.energy, data.shadow_soft_size = (1.0, 0.75, 0.5), 2.0, 0.01
-    light = bpy.data.objects.new("behind the ear", data)
-    light.location = ear + Vector((0.03, 0.15, 0.0))
-    scene.collection.objects.link(light)
-    bpy.context.view_layer.update()
-    return light
+    position = tuple(ear + Vector((0.03, 0.15, 0.0)))
+    return add_light(
+        scene, sg.Light("POINT", (1.0, 0.75, 0.5), position, power=2.0, name="behind the ear", radius=0.01)
+    )
 
 
 def add_rig(scene: bpy.types.Scene, rig: list[Any], center: Vector) -> None:

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import bpy
+import skinglow as sg
 import skinglow_blender as sb
 
 from studies import scenes as stage
@@ -53,8 +54,6 @@ def add_light(
     if rig is None:
         rig = bpy.data.collections.new(collection)
         scene.collection.children.link(rig)
-    data = bpy.data.lights.new(name, "POINT")
-    data.color, data.energy, data.shadow_soft_size = color, power, 0.03
-    obj = bpy.data.objects.new(name, data)
-    obj.location = position
-    rig.objects.link(obj)
+    light = stage.add_light(scene, sg.Light("POINT", color, position, power=power, name=name, radius=0.03))
+    scene.collection.objects.unlink(light)
+    rig.objects.link(light)

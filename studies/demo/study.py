@@ -52,7 +52,12 @@ def parsed(arguments: list[str]) -> argparse.Namespace:
         metavar="PIXELS",
         help="of the first picture (default 720); the others have two thirds",
     )
-    parser.add_argument("--samples", type=int, default=32, help="Cycles samples per pixel of the first picture, denoised (default 32); the others have a quarter")
+    parser.add_argument(
+        "--samples",
+        type=int,
+        default=32,
+        help="Cycles samples per pixel of the first picture, denoised (default 32); the others have a quarter",
+    )
     parser.add_argument("--out", type=Path, default=Path("out"), help="output folder (default out/)")
     return parser.parse_args(arguments)
 

@@ -63,8 +63,10 @@ def build(job: dict[str, Any]) -> Ear:
     skin.thickness = skin.measured(MIN_SKY_VISIBILITY)
     center, radius = _find_ear(skin, np.array(stage.views_of(head)["_ear"][0]))
     camera = stage.aim_camera(scene, Vector(center), 2.2 * radius, math.radians(CAMERA_AZIMUTH_DEGREES))
-    light_position = _add_light(scene, Vector(center))
+    azimuth = math.radians(LIGHT_AZIMUTH_DEGREES)
+    light_position = center + LIGHT_DISTANCE_M * np.array((math.sin(azimuth), -math.cos(azimuth), 0.0))
     light = sg.Light("POINT", LIGHT_COLOR, light_position, power=LIGHT_POWER_W, name="light")
+    stage.add_light(scene, light)
 
     back_lit = _cosine(skin, light_position) < 0.0
     inside = np.linalg.norm(skin.points - center, axis=1) < radius
@@ -83,16 +85,6 @@ def _find_ear(skin: _Skin, outermost: np.ndarray) -> tuple[np.ndarray, float]:
         raise SystemExit(f"no skin under {THIN_MM:g} mm within {NEAR_M:g} m of the head's side; is the unit right?")
     center = 0.5 * (thin.min(axis=0) + thin.max(axis=0))
     return center, float(np.linalg.norm(thin - center, axis=1).max())
-
-
-def _add_light(scene: bpy.types.Scene, ear: Vector) -> tuple[float, float, float]:
-    azimuth = math.radians(LIGHT_AZIMUTH_DEGREES)
-    data = bpy.data.lights.new("light", "POINT")
-    data.color, data.energy, data.shadow_soft_size = LIGHT_COLOR, LIGHT_POWER_W, 0.0
-    light = bpy.data.objects.new("light", data)
-    light.location = ear + LIGHT_DISTANCE_M * Vector((math.sin(azimuth), -math.cos(azimuth), 0.0))
-    scene.collection.objects.link(light)
-    return tuple(light.location)
 
 
 def _cosine(skin: _Skin, point: Any) -> np.ndarray:  # noqa: ANN401  any triple

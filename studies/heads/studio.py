@@ -7,9 +7,11 @@ import math
 # isort: off  (importing bpy is what makes the others importable in the wheels)
 import bpy
 import numpy as np
+import skinglow as sg
 from mathutils import Vector
 
 # isort: on
+from studies import scenes as stage
 from studies.heads.any_head import EAR_HEIGHT_M, Placed
 from studies.heads.ears import Ear
 
@@ -17,6 +19,7 @@ Color = tuple[float, float, float]
 
 WARM: Color = (1.0, 0.72, 0.45)
 BULB_W, BULB_RADIUS_M = 35.0, 0.01
+PANEL_M = 0.3
 EXPOSURE_STOPS = 1.1
 #: From the ear, of an ear on +X: x out of the head, y to the back, z up, meters.
 BULB, FILL, RIM = (0.0, 0.14, -0.04), (-0.42, -0.58, 0.30), (-0.5, 0.4, 0.5)
@@ -89,30 +92,22 @@ def ear_of(placed: Placed) -> Ear:
 def lights(scene: bpy.types.Scene, ear: Ear) -> bpy.types.Object:
     """A warm bulb behind the ear, which is returned, a dim cool fill before and a rim from the far side."""
     behind = bulb(scene, ear)
-    _light(scene, "fill", "AREA", ear, FILL, 2.6, (0.82, 0.88, 1.0), 0.3)
-    _light(scene, "rim", "AREA", ear, RIM, 4.0, (0.60, 0.75, 1.0), 0.3)
-    bpy.context.view_layer.update()
+    _panel(scene, "fill", ear, FILL, 2.6, (0.82, 0.88, 1.0))
+    _panel(scene, "rim", ear, RIM, 4.0, (0.60, 0.75, 1.0))
     return behind
 
 
 def bulb(scene: bpy.types.Scene, ear: Ear, power: float = BULB_W) -> bpy.types.Object:
-    return _light(scene, "bulb behind the ear", "POINT", ear, BULB, power, WARM, BULB_RADIUS_M)
+    position = tuple(_from_ear(ear, BULB))
+    return stage.add_light(scene, sg.Light("POINT", WARM, position, power=power, name="bulb", radius=BULB_RADIUS_M))
 
 
-def _light(
-    scene: bpy.types.Scene, name: str, kind: str, ear: Ear, off: Color, power: float, color: Color, size: float
-) -> bpy.types.Object:
-    data = bpy.data.lights.new(name, kind)
-    data.energy, data.color = power, color
-    if kind == "AREA":
-        data.size = size
-    else:
-        data.shadow_soft_size = size
-    light = bpy.data.objects.new(name, data)
-    light.location = _from_ear(ear, off)
-    light.rotation_euler = (Vector(ear.center) - light.location).to_track_quat("-Z", "Y").to_euler()
-    scene.collection.objects.link(light)
-    return light
+def _panel(scene: bpy.types.Scene, name: str, ear: Ear, off: Color, power: float, color: Color) -> None:
+    """A square that shines on the ear."""
+    position = _from_ear(ear, off)
+    direction = stage.toward(position, Vector(ear.center))
+    size = {"area_shape": "SQUARE", "size_x": PANEL_M, "size_y": PANEL_M}
+    stage.add_light(scene, sg.Light("AREA", color, tuple(position), direction, power=power, name=name, **size))
 
 
 def _from_ear(ear: Ear, off: Color) -> Vector:

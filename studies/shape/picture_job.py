@@ -6,8 +6,8 @@ import math
 from pathlib import Path
 from typing import Any
 
-import bpy
 import numpy as np
+import skinglow as sg
 from mathutils import Vector
 
 from studies import rendering
@@ -20,16 +20,6 @@ VIEWS = {"front": 25.0, "back": 135.0}
 ATTRIBUTE_SAMPLES, SEEDS = 8, (1, 2)
 
 
-def spot(scene: bpy.types.Scene, light: dict[str, Any]) -> None:
-    data = bpy.data.lights.new("light", "SPOT")
-    data.energy, data.shadow_soft_size = light["power"], light["radius"]
-    data.spot_size, data.spot_blend = light["spot_angle"], light["spot_blend"]
-    thing = bpy.data.objects.new("light", data)
-    thing.location = light["position"]
-    thing.rotation_euler = Vector(light["direction"]).to_track_quat("-Z", "Y").to_euler()
-    scene.collection.objects.link(thing)
-
-
 def main(job: dict[str, Any]) -> dict[str, Any]:
     out = Path(job["out"])
     with np.load(job["attributes"]) as file:
@@ -40,7 +30,7 @@ def main(job: dict[str, Any]) -> dict[str, Any]:
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
     rendering.linear_render(scene, job["size"])
     head = stage.load_head(job)
-    spot(scene, job["light"])
+    stage.add_light(scene, sg.Light(**job["light"]))
     for name, values in attributes.items():
         if len(values) != len(head.data.vertices):
             raise SystemExit(f"{name} has {len(values)} values, the head {len(head.data.vertices)} vertices")

@@ -63,6 +63,7 @@ class Stage:
             "center": list(self.head.ear_center / 1000.0),
             "height": 2.0 * MARGIN * radius_mm / 1000.0,
             "light": {
+                "kind": light.kind,
                 "power": light.power,
                 "radius": light.radius,
                 "spot_angle": light.spot_angle,

@@ -14,6 +14,7 @@ from mathutils import Vector
 
 from studies import rendering
 from studies import scenes as stage
+from studies.heads import loading
 from studies.in_blender import Steps
 from studies.medium import INDEX, SKIN1
 from studies.timing import timed
@@ -44,12 +45,12 @@ def main(job: dict[str, Any]) -> dict[str, Any]:
     scene = stage.empty_scene()
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
     rendering.linear_render(scene, job["size"])
-    head = stage.load_head(job)
-    ear, _height = stage.views_of(head)["_ear"]
-    stage.aim_camera(scene, ear + Vector((-0.004, 0.008, -0.012)), VISIBLE_M, CAMERA_AZIMUTH)
-    light = bpy.data.objects.new("light", bpy.data.lights.new("light", "POINT"))
-    light.data.energy, light.data.color, light.data.shadow_soft_size = POWER_W, COLOR, RADIUS_M
-    scene.collection.objects.link(light)
+    head, placed = loading.load(job)
+    for hair in [each for each in bpy.data.objects if each.type == "MESH" and each != head]:
+        bpy.data.objects.remove(hair)
+    ear = Vector(next(each.center for each in placed.ears if each.side > 0.0))
+    stage.aim_camera(scene, ear + Vector((-0.004, 0.008, -0.004)), VISIBLE_M, CAMERA_AZIMUTH)
+    light = stage.add_light(scene, sg.Light("POINT", COLOR, tuple(ear), power=POWER_W, radius=RADIUS_M))
     samples = job["samples"]
     told: dict[str, Any] = {"blender": job["host"]}
     step("the skin")

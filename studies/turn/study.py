@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from studies import hosts
-from studies.demo import head_source
 from studies.figures import plt, save, to_screen
+from studies.heads import hero
 from studies.paths import IMAGES, PROJECT
 from studies.progress import Progress
 from studies.turn.film import AZIMUTHS, save_film
@@ -39,7 +39,7 @@ def render(
     """Pictures (frames, height, width, 4) linear, CPU seconds of each frame, and what the job told."""
     pictures = options.out / f"{kind}.npz"
     job = {
-        **head_source.find(None, None, progress).job(),
+        **hero.head_job(None, progress),
         "kind": kind,
         "azimuths": AZIMUTHS,
         "size": options.size,

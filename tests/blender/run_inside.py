@@ -11,6 +11,8 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "blender_addon")]
+# Behind all else: what the studies have of the same.
+sys.path.append(str(HERE.parents[1]))
 if os.environ.get("SKINGLOW_SITE"):
     # Behind Blender's own: only the core is wanted from there.
     sys.path.append(os.environ["SKINGLOW_SITE"])

@@ -11,6 +11,7 @@ from skinglow_blender.show.skin_material import skin_node
 from skinglow_blender.thickness.thickness_attribute import KNOWN_ATTRIBUTE, THICKNESS_ATTRIBUTE
 
 from inside.scenes import add_light, black_material, camera_above, depsgraph, patch, read_exr, render_settings
+from studies import scenes as stage
 
 WEIGHTS = ("object", "surface")
 
@@ -117,23 +118,6 @@ def check_given_thickness_of_a_map(work):
         np.testing.assert_allclose(row, picture(work)[1, 1], rtol=1e-4)
 
 
-def show_pass(name):
-    """Lets renders show a pass in place of the picture."""
-    scene = bpy.context.scene
-    if bpy.app.version >= (5, 0, 0):
-        tree = bpy.data.node_groups.new("Compositing", "CompositorNodeTree")
-        tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
-        scene.compositing_node_group = tree
-        out = tree.nodes.new("NodeGroupOutput")
-    else:
-        scene.use_nodes = True
-        tree = scene.node_tree
-        tree.nodes.clear()
-        out = tree.nodes.new("CompositorNodeComposite")
-    layers = tree.nodes.new("CompositorNodeRLayers")
-    tree.links.new(layers.outputs[name], out.inputs[0])
-
-
 def check_light_output(work):
     """As an AOV it is the light that the surface got, and the picture less it is the surface."""
     for weights in WEIGHTS:
@@ -146,15 +130,8 @@ def check_light_output(work):
         emission.inputs["Strength"].default_value = 0.125
         both = picture(work)
         np.testing.assert_allclose(both - glow, 0.125, rtol=1e-3)
-        aov = bpy.context.view_layer.aovs.add()
-        aov.name, aov.type = "Glow", "COLOR"
-        out = tree.nodes.new("ShaderNodeOutputAOV")
-        if hasattr(out, "aov_name"):
-            out.aov_name = "Glow"
-        else:
-            out.name = "Glow"
-        tree.links.new(node_of(obj).outputs["Light"], out.inputs["Color"])
-        show_pass("Glow")
+        stage.add_light_aov(bpy.context.scene, obj)
+        stage.show_pass(bpy.context.scene, stage.AOV)
         np.testing.assert_allclose(picture(work), glow, rtol=1e-5)
 
 
@@ -168,11 +145,11 @@ def check_light_group(work):
     for name, member in (("Glow", obj), ("Room", light)):
         bpy.context.view_layer.lightgroups.add(name=name)
         member.lightgroup = name
-    show_pass("Combined_Glow")
+    stage.show_pass(bpy.context.scene, "Combined_Glow")
     shown = picture(work)
     np.testing.assert_allclose(shown[:2], glow[:2], rtol=1e-5)
     assert shown[2:, 2:].max() == 0.0
-    show_pass("Combined_Room")
+    stage.show_pass(bpy.context.scene, "Combined_Room")
     shown = picture(work)
     assert shown[:2].max() == 0.0 and shown[2:, 2:].max() > 0.0
 
