@@ -1,4 +1,4 @@
-"""Processor time."""
+"""Processor time and memory."""
 
 from __future__ import annotations
 
@@ -15,3 +15,10 @@ def timed(function: Callable[..., Result], *arguments: Any, **options: Any) -> t
     result = function(*arguments, **options)
     after = resource.getrusage(resource.RUSAGE_SELF)
     return result, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def spent() -> str:
+    """By all programs that this one ran and awaited: processor time, and the memory of the largest at its peak."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    kilobytes = max(used.ru_maxrss, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+    return f"{used.ru_utime + used.ru_stime:.0f} s of processor time, {kilobytes / 1e6:.1f} GB of memory at the peak"

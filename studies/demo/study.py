@@ -7,7 +7,7 @@ import json
 import time
 from pathlib import Path
 
-from studies import hosts
+from studies import hosts, timing
 from studies.demo import comparison, figures, light_rigs, page
 from studies.heads import hero, human_head
 from studies.progress import Progress
@@ -95,6 +95,7 @@ def main(arguments: list[str]) -> None:
     host = hosts.Host.find(options.blender)
     first = hero.render(host, head, out, options.size, options.samples, progress)
     if options.quick:
+        progress.say(f"done: {timing.spent()}")
         return
     rigs = light_rigs.gather(options.rig, host, progress)
     size = 2 * options.size // 3
@@ -106,6 +107,7 @@ def main(arguments: list[str]) -> None:
     progress.say("drawing the figures")
     figures.draw_all(out, numbers)
     numbers["seconds"] = round(time.monotonic() - started, 1)
+    numbers["spent"] = timing.spent()
     (out / "numbers.json").write_text(json.dumps(numbers, indent=1))
     page.write(out, numbers)
-    progress.say(f"done in {numbers['seconds']:.0f} s: open {out / 'index.html'}")
+    progress.say(f"done in {numbers['seconds']:.0f} s ({numbers['spent']}): open {out / 'index.html'}")

@@ -94,7 +94,7 @@ def _orientation(found: Samples, name: str, up: str | None, facing: str | None) 
         taken, reason = Orientation(*usual), f"as {suffix[1:]} files have it"
         if best.is_sure and best.orientation != taken:
             said.append(_doubt(name, best))
-    elif not given and not best.is_sure:
+    elif not best.is_sure:
         said.append(f"note: {name} could stand another way too; look at the preview")
     said.insert(0, f"{name}: {taken.up} is up and it faces {taken.facing}, {reason}; --up and --facing overrule that")
     return taken, said

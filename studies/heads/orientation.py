@@ -20,6 +20,9 @@ OF_FORMAT: dict[str, tuple[str, str] | None] = {
 }
 #: A guess is sure where its score is that much above the next one's.
 SURE = 0.12
+#: What is less like its mirror image than that is no whole head; nor is a shell, whose normals have that mean or more:
+#: a face without the back of the head. Guesses of both are never sure.
+ASYMMETRIC, SHELL = 0.4, 0.3
 
 
 @dataclass(frozen=True)
@@ -68,6 +71,8 @@ def guess(samples: Samples, up: str | None = None, facing: str | None = None) ->
     unit = Samples((samples.points - middle) / size, samples.normals, (samples.border - middle) / size)
     unit = _outside(unit)
     asymmetry = [_asymmetry(unit.points, axis) for axis in range(3)]
+    outward = np.sign((unit.points * unit.normals).sum()) * unit.normals.mean(axis=0)
+    is_shell = bool(np.linalg.norm(outward) > SHELL)
     found: list[tuple[float, Orientation]] = []
     for above, front in product([up] if up else AXES, [facing] if facing else AXES):
         if above[1] == front[1]:
@@ -76,9 +81,11 @@ def guess(samples: Samples, up: str | None = None, facing: str | None = None) ->
         orientation = Orientation(above, front)
         turned = unit.turned(orientation.rotation())
         symmetry = min(asymmetry) / max(asymmetry[sideways], 1e-9)
-        found.append((_looks_like_a_head(turned) + 1.5 * symmetry, orientation))
+        open_behind = 6.0 * float(outward @ axis_of(front)) if is_shell else 0.0
+        found.append((_looks_like_a_head(turned) + 1.5 * symmetry + open_behind, orientation))
     found.sort(key=lambda pair: -pair[0])
-    return Guess(found[0][1], found[0][0] - found[1][0])
+    is_whole = not is_shell and min(asymmetry) < ASYMMETRIC
+    return Guess(found[0][1], found[0][0] - found[1][0] if is_whole and len(found) > 1 else 0.0)
 
 
 def _outside(s: Samples) -> Samples:

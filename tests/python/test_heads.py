@@ -32,6 +32,17 @@ def test_a_head_is_seen_for_what_it_is_any_way_it_lies():
         assert found.is_sure
 
 
+@pytest.mark.parametrize("axis", [0, 1])
+def test_what_is_no_whole_head_is_told_to_be_a_guess(axis):
+    """A face without the back of the head, and a head without its left side."""
+    vertices, triangles = head()
+    kept = triangles[(vertices[triangles, axis] < 0.03).all(axis=1)]
+    placed = place_head(vertices, kept, "scan.ply", unit_mm=1000.0 if axis else None)
+    assert any("could stand another way too" in sentence for sentence in placed.said)
+    if axis == 1:
+        assert placed.orientation.facing == "-Y"
+
+
 def test_what_is_given_is_kept_and_the_rest_guessed():
     vertices, triangles = head()
     placed = place_head(as_file(vertices, Orientation("-X", "+Z")), triangles, "scan.ply", up="-x")
