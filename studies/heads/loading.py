@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -77,17 +78,12 @@ def _placed(head: bpy.types.Object, name: str, axes: Array, options: dict[str, A
 
 def _import(path: Path) -> bpy.types.Object:
     """All meshes of a file as one object at the origin."""
-    suffix, before = path.suffix.lower(), set(bpy.data.objects)
-    if suffix in (".glb", ".gltf"):
-        bpy.ops.import_scene.gltf(filepath=str(path))
-    elif suffix == ".obj" and bpy.app.version >= (3, 3, 0):
-        bpy.ops.wm.obj_import(filepath=str(path))
-    elif suffix == ".ply" and bpy.app.version >= (3, 6, 0):
-        bpy.ops.wm.ply_import(filepath=str(path))
-    elif suffix == ".ply":
-        bpy.ops.import_mesh.ply(filepath=str(path))
-    else:
-        raise HeadError(f"{path.name}: this file format is not read; allowed: .glb, .gltf, .obj, .ply")
+    before = set(bpy.data.objects)
+    try:
+        _importer(path)(filepath=str(path))
+    except RuntimeError as error:
+        why = str(error).strip().removeprefix("Error: ")
+        raise HeadError(f"{path.name}: Blender could not read it ({why}); export it again") from None
     new = [thing for thing in bpy.data.objects if thing not in before]
     meshes = [thing for thing in new if thing.type == "MESH" and len(thing.data.polygons)]
     if not meshes:
@@ -105,6 +101,17 @@ def _import(path: Path) -> bpy.types.Object:
         if thing is not meshes[0] and thing.name in bpy.data.objects:
             bpy.data.objects.remove(thing)
     return meshes[0]
+
+
+def _importer(path: Path) -> Callable[..., object]:
+    suffix = path.suffix.lower()
+    if suffix in (".glb", ".gltf"):
+        return bpy.ops.import_scene.gltf
+    if suffix == ".obj" and bpy.app.version >= (3, 3, 0):
+        return bpy.ops.wm.obj_import
+    if suffix == ".ply":
+        return bpy.ops.wm.ply_import if bpy.app.version >= (3, 6, 0) else bpy.ops.import_mesh.ply
+    raise HeadError(f"{path.name}: this file format is not read; allowed: .glb, .gltf, .obj, .ply")
 
 
 def _clean(mesh: bpy.types.Mesh) -> None:

@@ -38,6 +38,9 @@ def main(results: str, folder: str, *files: str) -> None:
     job = {"mesh": files[-1], "size": 48, "samples": 4, "out": folder, "host": bpy.app.version_string}
     found["hero"] = hero_job.main(job)
     found["error"] = hero_job.main({**job, "unit_mm": 1e5})
+    for name in ("broken.glb", "broken.ply", "empty.obj", "head.stl"):
+        Path(folder, name).write_text("")
+        found[name] = hero_job.main({**job, "mesh": str(Path(folder, name))})
     found["denoises"] = studio.can_denoise()
     Path(results).write_text(json.dumps(found))
 

@@ -67,3 +67,16 @@ def test_the_first_picture_shows_light_through_the_ear(found):
 
 def test_a_head_that_cannot_be_used_is_told_in_words(found):
     assert "--unit" in found[0]["error"]["error"]
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("broken.glb", "Blender could not read it"),
+        ("broken.ply", "Blender could not read it"),
+        ("empty.obj", "contains no mesh with faces"),
+        ("head.stl", "allowed: .glb, .gltf, .obj, .ply"),
+    ],
+)
+def test_a_file_without_a_head_is_told_in_words(found, name, words):
+    assert found[0][name]["error"].startswith(name) and words in found[0][name]["error"]
