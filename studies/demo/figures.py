@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import skinglow as sg
+from PIL import Image
 
 from studies.figures import plt, save, to_screen
+from studies.paths import IMAGES
 
 BACKGROUND, INK = "#16181c", "#d8dade"
 SHOWN_MM = 8.0
@@ -40,6 +43,13 @@ def draw_all(out: Path, numbers: dict[str, Any]) -> None:
     skins(out / "skins.png")
     light_output(out / "light_output.png", out, 2.0 ** numbers["exposure_stops"])
     hosts(out / "blender_and_povray.png", out, numbers)
+
+
+def to_docs(out: Path) -> None:
+    """The pictures of README and docs that the demo makes."""
+    Image.open(out / "hero.png").convert("RGB").save(IMAGES / "hero.jpg", quality=90)
+    for name in ("color_change.png", "physical.png", "light_output.png"):
+        shutil.copy(out / name, IMAGES)
 
 
 def lookup_images(path: Path, tables: dict[str, np.ndarray], numbers: dict[str, Any]) -> None:

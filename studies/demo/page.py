@@ -204,4 +204,5 @@ def _footer(out: Path, numbers: dict[str, Any]) -> str:
         "demo.log": "the log",
     }
     links = ", ".join(f"<a href={name}>{what}</a>" for name, what in files.items() if (out / name).exists())
-    return f"<h2>What it was made with</h2><p>{_made(numbers)}</p><p>{links}.</p>"
+    spent = f" It took {escape(numbers['spent'])}." if "spent" in numbers else ""
+    return f"<h2>What it was made with</h2><p>{_made(numbers)}{spent}</p><p>{links}.</p>"

@@ -59,6 +59,9 @@ def parsed(arguments: list[str]) -> argparse.Namespace:
         help="Cycles samples per pixel of the first picture, denoised (default 32); the others have a quarter",
     )
     parser.add_argument("--out", type=Path, default=Path("out"), help="output folder (default out/)")
+    parser.add_argument(
+        "--docs", action="store_true", help="the pictures of README and docs are then those of this run"
+    )
     return parser.parse_args(arguments)
 
 
@@ -110,4 +113,6 @@ def main(arguments: list[str]) -> None:
     numbers["spent"] = timing.spent()
     (out / "numbers.json").write_text(json.dumps(numbers, indent=1))
     page.write(out, numbers)
+    if options.docs:
+        figures.to_docs(out)
     progress.say(f"done in {numbers['seconds']:.0f} s ({numbers['spent']}): open {out / 'index.html'}")
