@@ -26,6 +26,7 @@ STUDIES = {
     "shape": Study("light through the shape against Monte Carlo: docs/shape.md", ("package", "blender")),
     "batch": Study("the example of docs/batch.md: frames x light rigs", ("package", "blender")),
     "panel": Study("the pictures of the panel in docs/blender.md", ("package",)),
+    "povray": Study("the picture of docs/povray.md, by POV-Ray alone", ("povray",)),
     "turn": Study("a light carried round an ear: docs/images/round_the_ear.png", ("package", "blender")),
     "architecture": Study("docs/images/architecture.svg from the includes of the core", ()),
 }

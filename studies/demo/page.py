@@ -11,7 +11,7 @@ from studies.paths import IMAGES
 from studies.turn.film import FRAMES
 
 #: Pictures of docs that the page shows beside its own, by the study that makes them.
-COMMITTED = {"round_the_ear_film.jpg": "turn", "ladder_scan.png": "ladder", "ladder_scan_pictures.png": "ladder"}
+COMMITTED = {"round_the_ear_film.jpg": "turn", "ladder_person.png": "ladder", "ladder_person_pictures.png": "ladder"}
 PARTS = {
     "round": "A light round the ear",
     "color": "Orange to blue",
@@ -22,10 +22,6 @@ PARTS = {
     "skins": "Skins",
     "lights": "Each light",
 }
-CREDIT = (
-    "The ear is of a scan: Infinite, 3D Head Scan by Lee Perry-Smith, CC BY 3.0, "
-    "based on a work at www.triplegangers.com."
-)
 FILM = """
 <script>
 const pictures = document.querySelectorAll(".film div"), slide = document.querySelector(".film input");
@@ -121,9 +117,8 @@ def _sections(out: Path, numbers: dict[str, Any]) -> list[str]:
             "Every method on one ear, a medium and four sets of lights, against a Monte Carlo in the flesh itself and "
             "beside Cycles' random walk. A picture takes the seconds below it after a light was moved; a table over "
             "thickness takes an ear for a plate, and it is none.",
-            _committed(out, "ladder_scan_pictures.png", "Every method, exposed alike in a row"),
-            _committed(out, "ladder_scan.png", "Error against run time"),
-            f"<p class=dim>{CREDIT}</p>",
+            _committed(out, "ladder_person_pictures.png", "Every method, exposed alike in a row"),
+            _committed(out, "ladder_person.png", "Error against run time"),
         ),
         _section(
             "povray",

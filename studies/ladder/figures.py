@@ -27,7 +27,7 @@ def error_against_time(path: Path, head: Results) -> None:
     time = walks[:, :, 1].mean(axis=0)
     axes.loglog(time, noise, "-", color="black", linewidth=1, marker=".", label="random walk: its noise")
     for samples, x, y in zip(walks[0, :, 0], time, noise, strict=True):
-        axes.annotate(f"{samples:.0f}", (x, y), (5, 4), textcoords="offset points", fontsize=8)
+        axes.annotate(f"{samples:,.0f}", (x, y), (5, 4), textcoords="offset points", fontsize=8)
     for axis, form in ((axes.xaxis, StrMethodFormatter("{x:g}")), (axes.yaxis, PercentFormatter(1.0, decimals=0))):
         axis.set_major_formatter(form)
         axis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
@@ -36,6 +36,7 @@ def error_against_time(path: Path, head: Results) -> None:
     axes.set_ylabel("RMS error / mean")
     axes.set_title(f"The back-lit ear of {head.title} under four rigs (pale), and all (full)")
     axes.grid(True, which="both", alpha=0.25)
+    axes.set_xlim(right=2.0 * time.max())  # the last number of samples is to be read
     axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5))
     save(figure, path, dpi=100)
 

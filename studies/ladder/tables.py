@@ -45,7 +45,7 @@ def ladder(found: list[Results], options: argparse.Namespace) -> str:
         rows.append(row)
     walks = []
     for index, (samples, *_rest) in enumerate(found[0].walk_errors(found[0].rigs[0])):
-        row = [f"random walk, {samples} sample{'s' if samples > 1 else ''}"]
+        row = [f"random walk, {samples:,} sample{'s' if samples > 1 else ''}"]
         for head in found:
             each = [head.walk_errors(rig)[index] for rig in head.rigs]
             row += ["", "", percent(float(np.sqrt(np.mean([e[2] ** 2 for e in each])))), seconds(each[0][1])]
@@ -56,7 +56,7 @@ def ladder(found: list[Results], options: argparse.Namespace) -> str:
     about = (
         f"Pictures of {options.size} x {options.size} pixels, of which {pixels} show back-lit skin; Cycles of Blender "
         f"{cycles}, EEVEE of {eevee} by software. Errors are RMS over mean, over the four rigs. Monte Carlo of "
-        f"{options.photons:,} photons per channel and rig, two halves of the walk of {options.samples} samples; the "
+        f"{options.photons:,} photons per channel and rig; converged walk of {options.samples:,} samples; the "
         f"noise of both (up to {100 * noise:.0f} % a pixel) is taken out. CPU seconds of all threads."
     )
     return f"{about}\n\n{report.table(heading, rows + walks)}"
