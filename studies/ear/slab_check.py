@@ -8,6 +8,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+import skinglow as sg
 
 from studies import rendering
 from studies import scenes as stage
@@ -32,10 +33,7 @@ def compare(medium: Medium, size: int, samples: int, folder: Path) -> list[dict[
     slab = bpy.context.object
     slab.scale = (WIDE_M, THICKNESS_MM / rendering.MM_PER_METER, WIDE_M)
     rendering.assign_material(slab, rendering.random_walk(medium))
-    sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
-    sun.data.angle, sun.data.energy = 0.0, 1.0
-    sun.rotation_euler = (-math.pi / 2.0, 0.0, 0.0)  # shines towards -Y
-    scene.collection.objects.link(sun)
+    stage.add_light(scene, sg.Light("SUN", direction=(0.0, -1.0, 0.0), power=1.0))
     lens = bpy.data.cameras.new("camera")
     lens.type, lens.ortho_scale, lens.clip_start = "ORTHO", 0.01, 0.001
     camera = bpy.data.objects.new("camera", lens)
