@@ -12,6 +12,7 @@ import pytest
 from studies import __main__ as command
 from studies.demo import page
 from studies.errors import Reference
+from studies.ladder.cells import Cells
 from studies.progress import StudyError
 from studies.report import fill
 
@@ -43,6 +44,21 @@ def test_a_picture_as_noisy_as_the_reference_has_its_own_strength():
         for scale in (1.0, 3.0)
     )
     assert dim.best_factor_to(bright) == pytest.approx(3.0, rel=0.02)
+
+
+def test_the_ladder_keeps_what_was_rendered_with_the_same_inputs(tmp_path):
+    mesh = tmp_path / "mesh.npz"
+    mesh.write_bytes(b"one")
+    job = {"mesh_file": str(mesh), "rigs": {}, "center": [0, 0, 0], "height": 0.1, "size": 8, "host": ["4.5", "3.4"]}
+    cells = Cells.of(tmp_path, "head", job)
+    for rung in ("shape 0.8", "pixel"):
+        cells.keep(f"behind|{rung}", np.full((2, 2, 4), 0.5), 1.5, 20.0)
+    again = Cells.of(tmp_path, "head", job)
+    assert again["behind|pixel"].seconds == 1.5 and again["behind|pixel"].prepared == 20.0
+    again.forget("shape 0.8")
+    assert "behind|shape 0.8" not in again and "behind|pixel" in again
+    mesh.write_bytes(b"another")
+    assert "behind|pixel" not in Cells.of(tmp_path, "head", job)
 
 
 def test_a_page_without_the_section_is_told(tmp_path):
