@@ -128,8 +128,8 @@ class Rasterizer {
     /// Whether a texel lies in two triangles at positions more than a tenth of a texel apart.
     bool is_elsewhere(std::uint32_t holder, std::uint32_t i, const TexelTriangle& triangle,
                       const glm::dvec2& texel) const {
-        const glm::dvec3 between =
-            position(holder, TexelTriangle(corners(holder)).weights(texel)) - position(i, triangle.weights(texel));
+        const glm::dvec3 between = position(holder, TexelTriangle(corners(holder)).weights(texel)) -
+                                   position(i, triangle.weights(texel));
         const double texel_sq = areas_[i] / (triangle.area() > 0 ? triangle.area() : 1.0);
         return glm::dot(between, between) > 0.01 * texel_sq;
     }
