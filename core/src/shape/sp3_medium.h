@@ -96,7 +96,8 @@ class SurfaceLinks {
     const SurfaceLink& at(std::size_t lane, float depth, float curvature) const {
         const auto bin = static_cast<std::size_t>(std::min(depth * bins_per_mm_ + 0.5F, float{bins}));
         const float turn = std::clamp(curvature * free_path_[lane], -1.0F, 1.0F);
-        const auto round = static_cast<std::size_t>((turn + 1) * float{rounds} + 0.5F);
+        const auto round =
+            static_cast<std::size_t>(std::min((turn + 1) * float{rounds} + 0.5F, float{2 * rounds}));
         return links_[(round * (bins + 1) + bin) * lane_count + lane];
     }
 
