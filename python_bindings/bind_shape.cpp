@@ -151,6 +151,12 @@ void bind_shape(py::module_& m) {
         .def_property_readonly("transmitted",
                                [](const LitShape& self) { return copy_of(self.transmitted()); })
         .def_property_readonly("irradiance", [](const LitShape& self) { return copy_of(self.irradiance()); })
+        .def("mean_error",
+             [](const LitShape& self) {
+                 LitShape::MeanError found = numpy::without_gil([&] { return self.mean_error(); });
+                 return py::make_tuple(numpy::from_vec3(found.of_all),
+                                       numpy::from_vec3s(std::move(found.of_parts)));
+             })
         .def("error",
              [](const LitShape& self) {
                  return numpy::from_vec3s(numpy::without_gil([&] { return self.error(); }));

@@ -208,8 +208,8 @@ def test_a_ball_is_what_monte_carlo_says():
     weight = bodies.vertex_areas(body) * np.maximum(-body[0][:, 0] / radius, 0.0)
     found = weight @ solve(body, light) / (bodies.vertex_areas(body) @ light)
     expected = [ball_walked_through(radius, a, s) for a, s in zip(ABSORPTION, SCATTERING, strict=True)]
-    np.testing.assert_allclose(found[:2], expected[:2], rtol=0.04)
-    np.testing.assert_allclose(found[2], expected[2], rtol=0.06)
+    np.testing.assert_allclose(found[:2], expected[:2], rtol=0.02)
+    np.testing.assert_allclose(found[2], expected[2], rtol=0.03)
 
 
 def test_a_wall_inside_flesh_does_nothing():

@@ -45,6 +45,23 @@ TEST(Sp3Medium, HalfSpaceReflectsAsTheTransportSolution) {
     }
 }
 
+TEST(Sp3Medium, AtARoundSurfaceKeepsTheBalanceWithWhatFalls) {
+    // A body that does not absorb, lit from everywhere: fluence 4 n^2 E, and nothing flows.
+    for (const double n : {1.0, 1.4}) {
+        for (const double curvature : {-0.5, 0.0, 0.5}) {
+            const Sp3Medium medium =
+                at_round_surface(sp3_medium(0.0, 1.0, n, ShapeSurface::rough), curvature);
+            const auto& b = medium.boundary;
+            const double det = b[0] * b[2] - b[1] * b[1];
+            EXPECT_GT(det, 0.0);
+            EXPECT_GT(b[0], 0.0);
+            const double psi = (b[2] * medium.source[0] - b[1] * medium.source[1]) / det;
+            const double other = (b[0] * medium.source[1] - b[1] * medium.source[0]) / det;
+            EXPECT_NEAR(medium.fluence[0] * psi + medium.fluence[1] * other, 4 * n * n, 0.01) << n;
+        }
+    }
+}
+
 TEST(SurfaceLink, IsExactForAFieldOfOneDimension) {
     // psi = a exp(decay z) + b exp(-decay z) below a surface at z = 0, outward is -z; E from the condition.
     const Sp3Medium medium = sp3_medium(0.2, 1.0, 1.4, ShapeSurface::smooth);

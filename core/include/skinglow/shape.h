@@ -132,6 +132,14 @@ class LitShape {
     /// surface and the medium themselves are taken as they are given.
     std::vector<glm::dvec3> error() const;
 
+    /// RMS of error over exitance, by channel: over skin that is lit through, most of whose light is transmitted, or
+    /// all of it where there is none, weighted by the light that leaves it. 0 where nothing is solved.
+    struct MeanError {
+        glm::dvec3 of_all;                 ///< all parts together
+        std::vector<glm::dvec3> of_parts;  ///< as Shape::parts
+    };
+    MeanError mean_error() const;
+
     /// Irradiance at the vertices of the mesh, of lights and world, shadows included; 0 where it does not
     /// matter.
     const std::vector<glm::dvec3>& irradiance() const;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <utility>
 
 #include "geometry/vector.h"
@@ -17,6 +18,8 @@ namespace {
 
 /// Ten kilometers: single precision has a millimeter left there.
 constexpr double max_radius_mm = 1e7;
+/// Of the curvature, each over an edge: what is smaller than a mean free path of light does not count.
+constexpr int smoothings = 3;
 
 /// The corners with the least first, in the order of the winding; and whether the winding is that of the
 /// sorted corners, which tells a triangle from its mirror image.
@@ -89,6 +92,8 @@ Body::Body(const MeshView& mesh, double unit_mm) : unit_mm_(unit_mm) {
     turn_outward();
     stop_if_asked();
     index_triangles();
+    stop_if_asked();
+    find_curvature();
 }
 
 void Body::settle_loose_vertices(std::span<const glm::uvec3> triangles) {
@@ -149,6 +154,44 @@ void Body::index_triangles() {
     std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
         for (int k = 0; k < 3; ++k) at_[next[triangles_[i].welded[k]]++] = i;
+    }
+}
+
+/// By how much the normals of an edge's ends turn along it, over its length: the mean over edges in all directions is
+/// the mean curvature.
+void Body::find_curvature() {
+    std::vector<glm::vec3> normals(positions_.size(), glm::vec3(0.0F));
+    for (const BodyTriangle& t : triangles_) {
+        for (int k = 0; k < 3; ++k) normals[t.welded[k]] += t.normal * t.area;
+    }
+    for (glm::vec3& n : normals) n /= std::max(glm::length(n), std::numeric_limits<float>::min());
+    const auto mean_over_edges = [&](const auto& of_edge) {
+        std::vector<float> sum(positions_.size(), 0.0F);
+        std::vector<float> count(positions_.size(), 0.0F);
+        for (const BodyTriangle& t : triangles_) {
+            for (int k = 0; k < 3; ++k) {
+                const std::uint32_t a = t.welded[k];
+                const std::uint32_t b = t.welded[(k + 1) % 3];
+                const auto [at_a, at_b] = of_edge(a, b);
+                sum[a] += at_a;
+                sum[b] += at_b;
+                ++count[a];
+                ++count[b];
+            }
+        }
+        for (std::size_t v = 0; v < sum.size(); ++v) sum[v] /= std::max(1.0F, count[v]);
+        return sum;
+    };
+    curvature_ = mean_over_edges([&](std::uint32_t a, std::uint32_t b) {
+        const glm::vec3 edge = positions_[b] - positions_[a];
+        const float turn = glm::dot(normals[b] - normals[a], edge) / std::max(glm::dot(edge, edge), 1e-12F);
+        return std::pair(turn, turn);
+    });
+    for (int i = 0; i < smoothings; ++i) {
+        curvature_ = mean_over_edges([&](std::uint32_t a, std::uint32_t b) {
+            const float both = 0.5F * (curvature_[a] + curvature_[b]);
+            return std::pair(both, both);
+        });
     }
 }
 

@@ -41,6 +41,8 @@ class Body {
     /// The point given, in mm about the center.
     glm::vec3 local(const glm::dvec3& point) const { return (point - origin_) * unit_mm_; }
     const glm::dvec3& origin() const { return origin_; }
+    /// Mean curvature at each welded vertex, 1/mm, above 0 where the body is convex; a mean over the vertices about it.
+    const std::vector<float>& curvature() const { return curvature_; }
     glm::vec3 corner(const BodyTriangle& t, int k) const { return positions_[t.welded[k]]; }
     glm::vec3 at(const BodyTriangle& t, float u, float v) const {
         return corner(t, 0) * (1 - u - v) + corner(t, 1) * u + corner(t, 2) * v;
@@ -52,6 +54,7 @@ class Body {
     void add_triangles(std::span<const glm::uvec3> triangles);
     void turn_outward();
     void index_triangles();
+    void find_curvature();
 
     glm::dvec3 origin_{0.0};
     double unit_mm_;
@@ -60,6 +63,7 @@ class Body {
     std::vector<std::uint32_t> welded_of_;
     std::vector<std::uint32_t> begin_;
     std::vector<std::uint32_t> at_;
+    std::vector<float> curvature_;
 };
 
 }  // namespace skinglow::detail

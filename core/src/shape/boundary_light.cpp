@@ -171,7 +171,7 @@ SparseRows<LanePair> boundary_light(const Body& body, const VoxelGrid& grid,
             const BoundarySample& s = samples[i];
             LanePair part;
             for (std::size_t k = 0; k < lane_count; ++k) {
-                const SurfaceLink& link = links.at(k, s.height);
+                const SurfaceLink& link = links.at(k, s.height, s.curvature);
                 part.first[k] = static_cast<float>(link.right(0)) * s.area;
                 part.second[k] = static_cast<float>(link.right(1)) * s.area;
             }
@@ -212,7 +212,7 @@ Ghosts make_ghosts(const Body& body, const VoxelGrid& grid, std::span<const Boun
             LanePair modes;
             Lanes light;
             for (std::size_t k = 0; k < lane_count; ++k) {
-                const SurfaceLink& link = links.at(k, s.height);
+                const SurfaceLink& link = links.at(k, s.height, s.curvature);
                 // psi over the surface, cosh(decay height) psi_surface - sinh(decay height) / decay F, is
                 // this of psi_i below it and that of F_i.
                 const RiseTable::Rise& rise = rises.at(k, lean.height);

@@ -54,7 +54,7 @@ BoundarySamples boundary_samples(const FleshSurface& surface, const VoxelGrid& g
         if (!is_near(body, t, grid) || surface.is_all_wall(f)) continue;
         const int parts = parts_of(body, t, 0.5F * grid.cell());
         const auto scale = static_cast<float>(parts);
-        BoundarySample sample{0, f, 0, 0, t.area / (scale * scale), 0};
+        BoundarySample sample{0, f, 0, 0, t.area / (scale * scale), 0, 0};
         for (int i = 0; i < parts; ++i) {
             for (int j = 0; i + j < parts; ++j) {
                 for (int half = 0; half < 2; ++half) {
@@ -63,6 +63,9 @@ BoundarySamples boundary_samples(const FleshSurface& surface, const VoxelGrid& g
                     sample.u = (static_cast<float>(i) + third) / scale;
                     sample.v = (static_cast<float>(j) + third) / scale;
                     const glm::vec3 point = body.at(t, sample.u, sample.v);
+                    sample.curvature = body.curvature()[t.welded.x] * (1 - sample.u - sample.v) +
+                                       body.curvature()[t.welded.y] * sample.u +
+                                       body.curvature()[t.welded.z] * sample.v;
                     if (grid.at(grid.voxel_of(point)) == VoxelGrid::unknown) continue;
                     if (surface.is_wall(f, sample.u, sample.v)) continue;
                     if (!assign(grid, point, t.normal, sample))

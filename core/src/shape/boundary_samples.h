@@ -12,9 +12,10 @@ namespace skinglow::detail {
 struct BoundarySample {
     std::uint32_t cell;
     std::uint32_t triangle;
-    float u, v;    ///< barycentric, of the triangle's second and third corner
-    float area;    ///< mm^2
-    float height;  ///< of its plane over the cell's center, mm, 0 or more
+    float u, v;       ///< barycentric, of the triangle's second and third corner
+    float area;       ///< mm^2
+    float height;     ///< of its plane over the cell's center, mm, 0 or more
+    float curvature;  ///< mean, 1/mm, above 0 where the body is convex
 };
 
 /// No sample's plane is farther over its cell's center, in cells.

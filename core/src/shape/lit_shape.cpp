@@ -64,6 +64,10 @@ const std::vector<glm::dvec3>& LitShape::transmitted() const {
 std::vector<glm::dvec3> LitShape::error() const {
     return data_->shape->at_points(data_->error());
 }
+LitShape::MeanError LitShape::mean_error() const {
+    const detail::MeanError found = data_->mean_error();
+    return {found.of_all, found.of_parts};
+}
 const std::vector<glm::dvec3>& LitShape::irradiance() const {
     return data_->solved->irradiance;
 }

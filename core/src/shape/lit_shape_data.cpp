@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "numerics/parallel_blocks.h"
-#include "shape/shape_error.h"
 
 namespace skinglow::detail {
 namespace {
@@ -148,6 +147,17 @@ std::vector<glm::dvec3> LitShapeData::error() const {
     std::vector<ColoredLight> lights;
     add_colored(all, lights);
     return estimated_error(*shape, lights, solved->irradiance);
+}
+
+MeanError LitShapeData::mean_error() const {
+    const auto& site_of = shape->solver->sites().site_of();
+    const std::size_t sites = shape->solver->sites().sites().size();
+    std::vector<glm::dvec3> of_sites[2] = {std::vector<glm::dvec3>(sites), std::vector<glm::dvec3>(sites)};
+    for (std::size_t i = 0; i < site_of.size(); ++i) {
+        of_sites[0][site_of[i]] = exitance[i];
+        of_sites[1][site_of[i]] = transmitted[i];
+    }
+    return detail::mean_error(*shape->solver, error(), of_sites[0], of_sites[1]);
 }
 
 }  // namespace skinglow::detail

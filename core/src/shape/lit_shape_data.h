@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "shape/shape_error.h"
 #include "shape/solved_light.h"
 
 namespace skinglow::detail {
@@ -46,6 +47,7 @@ struct LitShapeData {
     std::vector<glm::dvec3> transmitted_of(std::span<const glm::dvec3> colors) const;
     /// Estimated, one per site.
     std::vector<glm::dvec3> error() const;
+    MeanError mean_error() const;
 
   private:
     const std::vector<glm::mat3>& through(std::size_t light, const ShapeData::Matrices& of_light) const;

@@ -4,13 +4,16 @@
 
 namespace skinglow::detail {
 
-/// How far off a solved exitance is taken to be: one standard deviation over it, by node.
+/// How far off a solved exitance is taken to be: one standard deviation, by node.
 ///
-/// a + (b + c (decay cell)^p) log(brightest / exitance): most of the error is one of the rate at which light
-/// falls in flesh, due to SP3 and to the grid, so that it grows with the powers of e that light has fallen by. The
-/// numbers are fitted to the errors measured in docs/shape.md: above them, and less than three times of them.
+/// Light that came from elsewhere, T = |exitance - reflected|, is off by the rate at which it falls in flesh, due to
+/// SP3 and to the grid: by (b + c (decay cell)^p) T log(brightest / T), as it grows with the powers of e that light
+/// has fallen by. And all light by a part that grows with the cells. The numbers are fitted to the errors measured in
+/// docs/shape.md: above them, and less than three times of them.
+/// @param reflected  what a half-space would send out under the irradiance of the point
 /// @param brightest  irradiance of the part that the point is in
-Lanes relative_error(const LaneMedium& medium, double cell, const Lanes& exitance, const Lanes& brightest);
+Lanes error_of(const LaneMedium& medium, double cell, const Lanes& exitance, const Lanes& reflected,
+               const Lanes& brightest);
 
 /// The same of thin flesh that is lit from behind, as ears are: RMS over mean, all nodes together.
 double back_lit_error(const LaneMedium& medium, double cell);
@@ -27,5 +30,15 @@ void add_colored(std::span<const SiteLight> solved, std::vector<ColoredLight>& l
 /// @param irradiance  all light at the vertices
 std::vector<glm::dvec3> estimated_error(const ShapeData& shape, std::span<const ColoredLight> lights,
                                         std::span<const glm::dvec3> irradiance);
+
+/// Over skin that is lit through, most of whose light came from elsewhere, or all of it where there is none: the RMS of
+/// error / exitance, each site weighted by the light that leaves it, its area times exitance. For all parts together,
+/// and for each; 0 where nothing is solved. All arguments by site.
+struct MeanError {
+    glm::dvec3 of_all{0.0};
+    std::vector<glm::dvec3> of_parts;
+};
+MeanError mean_error(const ShapeSolver& solver, std::span<const glm::dvec3> error,
+                     std::span<const glm::dvec3> exitance, std::span<const glm::dvec3> transmitted);
 
 }  // namespace skinglow::detail

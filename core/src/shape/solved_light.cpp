@@ -54,11 +54,11 @@ void add(std::span<const glm::dvec3> light, std::span<glm::dvec3> sum) {
 }  // namespace
 
 SolvedLight::SolvedLight(LightScene scene, const SolvedLight* previous)
-    : LightScene(std::move(scene)),
-      // Spectra of different lights are better put together one by one.
-      is_by_light(shape->spectrum && rig.size() <= few_lights),
-      state_(rig.size(), LightState::left_out) {
-    for (const std::size_t k : lights_that_count(*shape, rig)) state_[k] = LightState::open;
+    : LightScene(std::move(scene)), state_(rig.size(), LightState::left_out) {
+    const std::vector<std::size_t> that_count = lights_that_count(*shape, rig);
+    for (const std::size_t k : that_count) state_[k] = LightState::open;
+    // Spectra of different lights are better put together one by one. A light without power is none of them.
+    is_by_light = shape->spectrum && that_count.size() <= few_lights;
     for (std::size_t k = 0; k < rig.size(); ++k) {
         if (state_[k] == LightState::left_out) left_out.push_back(k);
     }

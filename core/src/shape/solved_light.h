@@ -26,7 +26,7 @@ struct SolvedLight : LightScene {
     std::vector<glm::dvec3> irradiance;
     std::vector<std::shared_ptr<const WhiteLight>> lights;  ///< one for each
     std::shared_ptr<const WorldLight> world;                ///< null: black
-    bool is_by_light;  ///< colors are put together light by light, not of the sum
+    bool is_by_light = false;  ///< colors are put together light by light, not of the sum
 
     /// @param previous  null: none
     SolvedLight(LightScene scene, const SolvedLight* previous);

@@ -181,6 +181,19 @@ SurfaceLink surface_link(const Sp3Medium& medium, double depth) {
     return link;
 }
 
+Sp3Medium at_round_surface(Sp3Medium medium, double curvature) {
+    if (medium.refractive_index > 1) return medium;
+    const double free_share = (1 - medium.inside_reflectance) / (1 + medium.inside_reflectance);
+    const double more = 0.5 * free_share * curvature;
+    double* b = medium.boundary;
+    const Matrix2 inverse = Matrix2{b[0], b[1], b[1], b[2]}.inverse();
+    const std::array<double, 2> in_balance = inverse * std::array{medium.source[0], medium.source[1]};
+    for (std::size_t i = 0; i < 2; ++i) medium.source[i] += more * in_balance[i];
+    b[0] += more;
+    b[2] += more;
+    return medium;
+}
+
 LaneMedium::LaneMedium(std::span<const Sp3Medium> media)
     : media_(media.begin(), media.end()), nodes_(media.size()) {
     while (media_.size() < lane_count) media_.push_back(media_.back());
@@ -200,10 +213,18 @@ double LaneMedium::min_extinction() const {
 
 SurfaceLinks::SurfaceLinks(const LaneMedium& medium, double max_depth)
     : bins_per_mm_(static_cast<float>(bins / max_depth)) {
-    links_.reserve((bins + 1) * lane_count);
-    for (std::size_t b = 0; b <= bins; ++b) {
-        for (std::size_t k = 0; k < lane_count; ++k)
-            links_.push_back(surface_link(medium[k], max_depth * static_cast<double>(b) / bins));
+    free_path_ = medium.lanes([](const Sp3Medium& m) { return 1 / m.extinction; });
+    links_.reserve((2 * rounds + 1) * (bins + 1) * lane_count);
+    for (std::size_t r = 0; r <= 2 * rounds; ++r) {
+        std::vector<Sp3Medium> media;
+        for (std::size_t k = 0; k < lane_count; ++k) {
+            const double turn = static_cast<double>(r) / rounds - 1;
+            media.push_back(at_round_surface(medium[k], turn * medium[k].extinction));
+        }
+        for (std::size_t b = 0; b <= bins; ++b) {
+            for (const Sp3Medium& m : media)
+                links_.push_back(surface_link(m, max_depth * static_cast<double>(b) / bins));
+        }
     }
 }
 

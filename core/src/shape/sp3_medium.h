@@ -57,6 +57,14 @@ struct SurfaceLink {
 };
 SurfaceLink surface_link(const Sp3Medium& medium, double depth);
 
+/// The medium with the condition of a surface that is round: B + c curvature, s + c curvature B^-1 s with c = r / 2 and
+/// r as in the condition of a rough surface. Marshak's condition is that of a plane: light leaves a ball more easily,
+/// as more of what arrives comes straight from its inside. c is chosen by the Monte Carlo of balls of 2 and 3 mm; a
+/// sphere by itself in the transport theory of isotropic scattering has c = 1. Light in equilibrium with what falls on
+/// the body stays as it is. A smooth surface with an index focuses besides; it is left as it is.
+/// @param curvature  mean, 1/mm, above 0 where the body is convex; up to the extinction either way
+Sp3Medium at_round_surface(Sp3Medium medium, double curvature);
+
 /// The media of all nodes, lane by lane; the last one fills the lanes that are left.
 class LaneMedium {
   public:
@@ -78,20 +86,25 @@ class LaneMedium {
     std::size_t nodes_;
 };
 
-/// The links of all nodes by depth, made once: a body has a hundred thousand pieces of surface. Depths are
-/// rounded to a thousandth of the largest.
+/// The links of all nodes by depth and curvature, made once: a body has a hundred thousand pieces of surface. Depths
+/// are rounded to a 400th of the largest, curvatures to a 20th of the extinction.
 class SurfaceLinks {
   public:
     /// @param max_depth  mm; greater ones count as this
     SurfaceLinks(const LaneMedium& medium, double max_depth);
 
-    const SurfaceLink& at(std::size_t lane, float depth) const {
+    const SurfaceLink& at(std::size_t lane, float depth, float curvature) const {
         const auto bin = static_cast<std::size_t>(std::min(depth * bins_per_mm_ + 0.5F, float{bins}));
-        return links_[bin * lane_count + lane];
+        const float turn = std::clamp(curvature * free_path_[lane], -1.0F, 1.0F);
+        const auto round =
+            static_cast<std::size_t>(std::min((turn + 1) * float{rounds} + 0.5F, float{2 * rounds}));
+        return links_[(round * (bins + 1) + bin) * lane_count + lane];
     }
 
   private:
-    static constexpr std::size_t bins = 1000;
+    static constexpr std::size_t bins = 400;
+    static constexpr std::size_t rounds = 20;  ///< either way
+    Lanes free_path_;                          ///< mm
     float bins_per_mm_;
     std::vector<SurfaceLink> links_;
 };

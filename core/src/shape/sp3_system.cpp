@@ -97,7 +97,7 @@ Sp3System::Sp3System(const VoxelGrid& grid, std::span<const BoundarySample> samp
         Sums& sum = sums[class_of_[s.cell]];
         const auto area = static_cast<double>(s.area);
         for (std::size_t k = 0; k < lane_count; ++k) {
-            const SurfaceLink& link = links.at(k, s.height);
+            const SurfaceLink& link = links.at(k, s.height, s.curvature);
             sum.d11[k] += area * link.block(0);
             sum.d12[k] += area * link.block(1);
             sum.d22[k] += area * link.block(2);

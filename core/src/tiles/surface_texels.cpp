@@ -125,11 +125,11 @@ class Rasterizer {
         }
     }
 
-    /// Whether a texel lies in two triangles at places more than a tenth of a texel apart.
+    /// Whether a texel lies in two triangles at positions more than a tenth of a texel apart.
     bool is_elsewhere(std::uint32_t holder, std::uint32_t i, const TexelTriangle& triangle,
                       const glm::dvec2& texel) const {
-        const glm::dvec3 between =
-            place(holder, TexelTriangle(corners(holder)).weights(texel)) - place(i, triangle.weights(texel));
+        const glm::dvec3 between = position(holder, TexelTriangle(corners(holder)).weights(texel)) -
+                                   position(i, triangle.weights(texel));
         const double texel_sq = areas_[i] / (triangle.area() > 0 ? triangle.area() : 1.0);
         return glm::dot(between, between) > 0.01 * texel_sq;
     }
@@ -140,7 +140,7 @@ class Rasterizer {
     glm::dvec3 point(std::size_t triangle, int k) const {
         return to_unit_(mesh_.vertices()[mesh_.triangles()[triangle][k]]);
     }
-    glm::dvec3 place(std::size_t triangle, const glm::dvec3& weights) const {
+    glm::dvec3 position(std::size_t triangle, const glm::dvec3& weights) const {
         return weights.x * point(triangle, 0) + weights.y * point(triangle, 1) +
                weights.z * point(triangle, 2);
     }
