@@ -6,6 +6,8 @@ The program `skinglow` (C++) reads and writes more formats; this one comes with 
 from __future__ import annotations
 
 import argparse
+import contextlib
+import io
 import json
 import sys
 from collections.abc import Callable
@@ -58,10 +60,14 @@ def read_mesh(path: Path) -> tuple[Array, NDArray[np.integer]]:
         ) from None
     if not path.is_file():
         raise FileNotFoundError(2, "No such file", str(path))
+    # Of what is no mesh meshio tells on both streams, and then raises or exits.
+    said = io.StringIO()
     try:
-        mesh = meshio.read(path)
-    except (Exception, SystemExit) as error:  # what is no such file makes meshio raise or exit in many ways
-        raise ValueError(f"file {path}: meshio cannot read it: {error}") from None
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            mesh = meshio.read(path)
+    except (Exception, SystemExit) as error:
+        reason = " ".join(said.getvalue().split()) or error
+        raise ValueError(f"file {path}: meshio cannot read it: {reason}") from None
     triangles = [mesh.cells_dict["triangle"]] if "triangle" in mesh.cells_dict else []
     if "quad" in mesh.cells_dict:
         quads = mesh.cells_dict["quad"]

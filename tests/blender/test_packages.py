@@ -9,6 +9,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tarfile
 import zipfile
 from pathlib import Path
 from urllib.parse import unquote, urlparse
@@ -122,6 +123,15 @@ def test_bills_of_materials_and_licenses_tell_all_that_is_compiled_in() -> None:
             link for part in components.values() for link in part.get("externalReferences", ()) if "hashes" in link
         ]
         assert len(digests) == 2  # of the sources that were fetched
+
+
+def test_source_package_holds_just_what_builds_it() -> None:
+    (source,) = packages("skinglow-*.tar.gz")
+    with tarfile.open(source) as archive:
+        names = {Path(*Path(name).parts[1:]) for name in archive.getnames()}
+    alone = {"CHANGELOG.md", "CMakeLists.txt", "LICENSE", "PKG-INFO", "README.md", "pyproject.toml"}
+    assert {path.parts[0] for path in names} == alone | {"core", "povray_macros", "python_bindings"}
+    assert Path("core/include/skinglow/light.h") in names and Path("python_bindings/skinglow/__main__.py") in names
 
 
 def test_what_pip_fetches_is_pinned_by_digests() -> None:

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Pythons for Windows, run by Wine, with what tests need, in build/windows: 3.11 with Blender's module (330 MB), and 3.13. Called by
+# Pythons for Windows, run by Wine, with what tests need, in build/windows: 3.11 with Blender's module (330 MB). Called by
 # scripts/test --platforms, after scripts/package windows-x64, which fetches these Pythons for their headers.
 source "$(dirname "${BASH_SOURCE[0]}")/../../scripts/common.sh"
 command -v wine >/dev/null || fail "wine is needed: scripts/setup --platforms"
-for version in 3.11 3.13; do
+for version in 3.11; do
     here=$project/build/windows/python-$version pins=$project/packaging/pins/windows-$version.txt
     theirs=$project/build/portable/python_windows_$version
     [ -e "$theirs/python.exe" ] || fail "there is no Python $version for Windows: scripts/package windows-x64"

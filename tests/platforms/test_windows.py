@@ -18,12 +18,9 @@ PROJECT = Path(__file__).parents[2]
 WINDOWS = PROJECT / "build" / "windows"
 #: What starts the C++ program, which is not built for Windows, POSIX's programs, or this machine's Python.
 LEFT_OUT = ("command_line", "files", "flamenco_job", "house", "mesh_formats", "skin_command", "stubs", "studies")
-#: Each Python with a test of it whole, or with those of what touches the compiled modules.
+#: By Python, what pytest runs.
 TESTS = {
     "3.11": ["tests/python", *(f"--ignore=tests/python/test_{name}.py" for name in LEFT_OUT)],
-    "3.13": [
-        f"tests/python/test_{name}.py" for name in ("equations", "thickness", "occlusion", "slab", "module_command")
-    ],
 }
 #: The functions of Windows' C runtime, and what Windows 10 brings besides.
 SYSTEM_LIBRARIES = re.compile(r"(KERNEL32|ADVAPI32|ntdll)\.dll|api-ms-win-crt-[\w-]+\.dll", re.IGNORECASE)

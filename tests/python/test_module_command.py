@@ -121,7 +121,7 @@ def test_refusals_are_one_line_that_names_the_thing(tmp_path: Path, capsys: pyte
         (("lut", RIG, "--mode", "existing", "-o", out), "RIG"),
         (("lut", RIG, "--mode", "paper", "--skin", "ear", "-o", out), "--skin"),
         (("lut", RIG, "-o", tmp_path / "a.exr"), ".csv or .npy"),
-        (("lut", RIG, "--size", "1", "-o", out), "size"),
+        (("lut", RIG, "--size", "0", "-o", out), "size"),
         (("lut", "--skin", "ear", "--melanin-fraction", "7", "-o", out), "melanin_fraction"),
         (("thickness", tmp_path / "empty.npz", "-o", out), "triangles"),
         (("thickness", tmp_path / "text.ply", "-o", out), "text.ply"),
