@@ -96,6 +96,8 @@ class ShapeState:
         self.light: Light | None = None  #: that falls on it
         self.shown: Shown | None = None
         self.answer: Answer | None = None  #: the last one that was solved
+        #: The answer that is shown in another tissue until that is solved, and the tissue.
+        self.quick: tuple[Answer, tuple[float, ...]] | None = None
         self.fault = ""
 
     @property
@@ -343,9 +345,14 @@ def _show_at_once(state: ShapeState) -> bool:
                 state.shown = Shown(state.tiles, quick.radiance, quick)
                 return True
         elif answer.body.tiles is state.tiles:
+            quick = state.quick
+            # While a light moves on, it is the same.
+            if quick is not None and quick[0] is answer and quick[1] == state.key.tissue:
+                return state.shown is not None and state.shown.tiles is state.tiles
             radiance = of_other_tissue(answer, state.key)
             if radiance is not None:
                 state.shown = Shown(state.tiles, radiance, answer._replace(full=False))
+                state.quick = answer, state.key.tissue
                 return True
     except FAILURES:
         return False

@@ -240,6 +240,8 @@ def of_other_tissue(answer: Answer, key: BodyKey) -> np.ndarray | None:
     """The radiance of the answer's light in another tissue; None if it is of another body."""
     if key.medium is not None or answer.body.key.medium is not None or not answer.body.key.same_place(key):
         return None
+    if answer.body.key.tissue == key.tissue:
+        return answer.radiance  # other cells alone
     return radiance_of(answer.lit.with_tissue(tissue_of(key.tissue)))
 
 

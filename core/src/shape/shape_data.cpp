@@ -10,8 +10,9 @@
 namespace skinglow::detail {
 namespace {
 
-/// Over what a half-space sends back: the grid's errors on lit skin are below.
-constexpr float largest_sent_back = 1.1F;
+/// Of what a half-space sends back: the grid's errors on lit skin are below.
+constexpr float largest_error = 0.1F;
+constexpr float largest_sent_back = 1 + largest_error;
 /// Flesh that light comes through at lit points.
 constexpr double thickest_mm = 2;
 constexpr std::size_t sites_per_block = 512;
@@ -84,14 +85,22 @@ ShapeData::Pair ShapeData::combine(const Lanes& all, const Lanes& of_half_space)
         through[k] = std::max(0.0F, all[k] - part * of_half_space[k]);
     }
     if (sent_back > 0) {
-        // What is left is brighter the less it is absorbed, and falls from node to node as through some flesh at
-        // most: where the grid's errors leave a node dark, those about it would have any color.
+        // What is left is brighter the less it is absorbed, and falls from node to node as it did before, or as
+        // through some flesh at most: where the grid's errors leave a node dark, those about it would have any
+        // color. A node gets no more than these errors can be, so that a little light changes little.
         const LaneMedium& medium = solver->medium();
-        for (std::size_t k = last; k-- > 0;) through[k] = std::max(through[k], through[k + 1]);
-        for (std::size_t k = 1; k <= last; ++k) {
+        const auto raise = [&](std::size_t k, double least) {
+            const float largest = through[k] + largest_error * of_half_space[k];
+            through[k] = std::max(through[k], std::min(static_cast<float>(least), largest));
+        };
+        for (std::size_t k = last; k-- > 0;) raise(k, static_cast<double>(through[k + 1]));
+        double flesh_mm = thickest_mm;
+        for (std::size_t k = 1; k <= last && through[k - 1] > 0; ++k) {
             const double rise = medium[k].decay[0] - medium[k - 1].decay[0];
-            through[k] =
-                std::max(through[k], through[k - 1] * static_cast<float>(std::exp(-thickest_mm * rise)));
+            const double before = static_cast<double>(through[k - 1]);
+            raise(k, before * std::exp(-flesh_mm * rise));
+            if (rise > 0 && through[k] > 0)
+                flesh_mm = std::max(thickest_mm, std::log(before / static_cast<double>(through[k])) / rise);
         }
     }
     result.exitance += combine(through);
