@@ -15,13 +15,15 @@ FONT = 0
 def draw_wrapped(layout: bpy.types.UILayout, text: str, context: bpy.types.Context, icon: str) -> None:
     """Draws the text as lines of labels, wrapped to the width of the current region."""
     system, styles = context.preferences.system, context.preferences.ui_styles
+    if context.region is None or system.ui_scale <= 0:  # no window, as in the bpy wheels: nothing has a width
+        layout.label(text=text, icon=icon)
+        return
     size = (styles[0].widget.points if styles else 11.0) * system.ui_scale
     if bpy.app.version < (4, 0, 0):
         blf.size(FONT, size, 72)
     else:
         blf.size(FONT, size)
-    region = context.region.width if context.region is not None else 0.0
-    width = max(region - (ICON + EDGES) * system.ui_scale, MIN_WIDTH * system.ui_scale)
+    width = max(context.region.width - (ICON + EDGES) * system.ui_scale, MIN_WIDTH * system.ui_scale)
     for line in wrapped(text, width, lambda part: blf.dimensions(FONT, part)[0]):
         layout.label(text=line, icon=icon)
         icon = "BLANK1"
