@@ -40,11 +40,11 @@ class Installation:
         own = {"HOME": folder / "home", "BLENDER_USER_RESOURCES": self.profile}
         for part in ("CONFIG", "SCRIPTS", "DATAFILES"):  # before 4.2
             own[f"BLENDER_USER_{part}"] = self.profile / part.lower()
-        for place in own.values():
-            place.mkdir(parents=True)
+        for directory in own.values():
+            directory.mkdir(parents=True)
         ours = ("PYTHON", "SKINGLOW", "XDG_", "BLENDER_")
         self.environment = {name: value for name, value in os.environ.items() if not name.startswith(ours)}
-        self.environment |= {name: str(place) for name, place in own.items()} | {"PYTHONNOUSERSITE": "1"}
+        self.environment |= {name: str(directory) for name, directory in own.items()} | {"PYTHONNOUSERSITE": "1"}
 
     def run(self, *task: str) -> dict:
         result, log = self.work / f"{task[0]}.json", self.work / f"{task[0]}.txt"

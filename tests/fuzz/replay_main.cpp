@@ -1,4 +1,4 @@
-// Runs a fuzz target over files that are kept: what a compiler without libFuzzer links in its place.
+// Runs a fuzz target over files that are kept: what a compiler without libFuzzer links instead.
 // Usage: TARGET FILE-OR-FOLDER...
 
 #include <cstdint>

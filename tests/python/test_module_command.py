@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import skinglow as sg
+import trimesh
 from skinglow.__main__ import main
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -22,7 +23,6 @@ def read(path: Path) -> np.ndarray:
 
 
 def ball(path: Path, radius: float) -> Path:
-    trimesh = pytest.importorskip("trimesh")
     mesh = trimesh.creation.icosphere(subdivisions=3, radius=radius)
     np.savez(path, vertices=mesh.vertices, triangles=mesh.faces)
     return path
@@ -85,7 +85,6 @@ def test_thickness_of_a_ball(tmp_path: Path) -> None:
 
 
 def test_thickness_of_other_formats_by_meshio(tmp_path: Path) -> None:
-    pytest.importorskip("meshio")
     corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
     faces = ["1 2 4 3", "5 7 8 6", "1 5 6 2", "3 4 8 7", "1 3 7 5", "2 6 8 4"]
     lines = ["v {} {} {}".format(*corner) for corner in corners] + [f"f {face}" for face in faces]
@@ -98,7 +97,6 @@ def test_thickness_of_other_formats_by_meshio(tmp_path: Path) -> None:
 
 def test_light_through_a_plate(tmp_path: Path) -> None:
     """A plate of 4 mm, 20 mm wide, under the lights of the rig."""
-    trimesh = pytest.importorskip("trimesh")
     plate = trimesh.creation.box(extents=(0.02, 0.02, 0.004)).subdivide().subdivide()
     np.savez(tmp_path / "plate.npz", vertices=plate.vertices, triangles=plate.faces)
     asked = ["shape", tmp_path / "plate.npz", RIG, "--cell", "1", "--reentries", "0", "-o", tmp_path / "a.csv"]

@@ -10,8 +10,8 @@ PROJECT = Path(__file__).parents[2]
 
 def system_without(*names: str, folder: Path) -> dict[str, str]:
     """An environment whose PATH has this machine's programs but those and dpkg's."""
-    for place in ("/usr/sbin", "/sbin", "/usr/bin", "/bin"):
-        for program in os.scandir(place):
+    for directory in ("/usr/sbin", "/sbin", "/usr/bin", "/bin"):
+        for program in os.scandir(directory):
             link = folder / program.name
             if not program.name.startswith("dpkg") and program.name not in names and not link.is_symlink():
                 link.symlink_to(program.path)

@@ -86,7 +86,7 @@ def check_dark_without_a_tile(work):
         assert is_of_this_mesh(left.data)
         edit = bmesh.new()
         edit.from_mesh(left.data)
-        corners = [edit.verts.new(place) for place in ((1, -1, 0), (3, -1, 0), (3, 1, 0), (1, 1, 0))]
+        corners = [edit.verts.new(position) for position in ((1, -1, 0), (3, -1, 0), (3, 1, 0), (1, 1, 0))]
         edit.faces.new(corners)
         edit.to_mesh(left.data)
         edit.free()
