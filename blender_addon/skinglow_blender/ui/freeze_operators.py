@@ -53,6 +53,11 @@ class SKINGLOW_OT_freeze(bpy.types.Operator):  # noqa: N801  Blender's naming
             self._report(freezing.finish())
         except FAULTS as error:
             return self._failed(freezing, error)
+        except BaseException:
+            # Such as Ctrl-C while a frame waits for its light.
+            if freezing is not None:
+                freezing.cancel()
+            raise
         return {"FINISHED"}
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
@@ -85,6 +90,10 @@ class SKINGLOW_OT_freeze(bpy.types.Operator):  # noqa: N801  Blender's naming
         except FAULTS as error:
             self._end(context)
             return self._failed(freezing, error)
+        except BaseException:
+            self._end(context)
+            freezing.cancel()
+            raise
         self._end(context)
         self._report(frozen)
         return {"FINISHED"}

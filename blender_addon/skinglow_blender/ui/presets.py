@@ -48,7 +48,7 @@ class SKINGLOW_OT_add_skin_preset(AddPresetBase, bpy.types.Operator):  # noqa: N
 
     bl_idname = "skinglow.add_skin_preset"
     bl_label = "Add Skin Preset"
-    bl_description = "Save this skin as a preset, or remove the preset that the menu names"
+    bl_description = "Save this skin as a preset, or remove the saved preset that the menu names"
     preset_menu = SKINGLOW_MT_skin_presets.bl_idname
     preset_subdir = SKINGLOW_MT_skin_presets.preset_subdir
     preset_defines = ("skin = bpy.context.object.skinglow",)
@@ -58,15 +58,29 @@ class SKINGLOW_OT_add_skin_preset(AddPresetBase, bpy.types.Operator):  # noqa: N
     def poll(cls, context: bpy.types.Context) -> bool:
         return is_skin(context.object)
 
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        # Blender removes the saved one that was chosen last, whatever the menu names now.
+        if self.remove_active and (label := _core_preset(context.object.skinglow)):
+            self.report({"ERROR"}, f"'{label}' comes with Skinglow and cannot be removed")
+            return {"CANCELLED"}
+        return super().execute(context)
+
+
+def _core_preset(settings: bpy.types.PropertyGroup) -> str:
+    """The name of the core's preset that the sliders show, or ""."""
+    number = settings.bl_rna.properties["preset"].enum_items.find(settings.preset)
+    return PRESETS[number][1] if settings.preset != "CUSTOM" else ""
+
 
 def draw_presets(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
     """The menu, named after the preset that the sliders show, and + and -."""
     row = layout.row(align=True)
-    number = settings.bl_rna.properties["preset"].enum_items.find(settings.preset)
-    label = PRESETS[number][1] if settings.preset != "CUSTOM" else SKINGLOW_MT_skin_presets.bl_label
-    row.menu(SKINGLOW_MT_skin_presets.bl_idname, text=label)
+    of_core = _core_preset(settings)
+    row.menu(SKINGLOW_MT_skin_presets.bl_idname, text=of_core or SKINGLOW_MT_skin_presets.bl_label)
     row.operator(SKINGLOW_OT_add_skin_preset.bl_idname, text="", icon="ADD")
-    row.operator(SKINGLOW_OT_add_skin_preset.bl_idname, text="", icon="REMOVE").remove_active = True
+    remove = row.row(align=True)
+    remove.enabled = not of_core
+    remove.operator(SKINGLOW_OT_add_skin_preset.bl_idname, text="", icon="REMOVE").remove_active = True
 
 
 CLASSES = (SKINGLOW_OT_apply_preset, SKINGLOW_MT_skin_presets, SKINGLOW_OT_add_skin_preset)

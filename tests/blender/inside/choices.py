@@ -8,6 +8,7 @@ from skinglow_blender.live import file_upgrade
 from skinglow_blender.show.lut_image import GROUP_PROPERTY
 from skinglow_blender.tissue_presets import PRESETS, TISSUE_SLIDERS
 
+from inside.bad_input import refused
 from inside.scenes import add_light, depsgraph, patch
 
 sb.register()
@@ -85,6 +86,10 @@ def check_preset_is_what_the_sliders_show(_work):
     assert not np.array_equal(sb.lut(obj, depsgraph()), light)
 
 
+def menu_label(name):
+    return getattr(bpy.types, name).bl_label
+
+
 def check_user_presets_are_saved_and_removed(_work):
     obj = selected(patch())
     sb.make_skin(obj, thickness=THIN, preset="dark", melanin_fraction=0.123)
@@ -96,6 +101,11 @@ def check_user_presets_are_saved_and_removed(_work):
     menu = "SKINGLOW_MT_skin_presets"
     bpy.ops.script.execute_preset(filepath=files[0][1], menu_idname=menu)
     assert obj.skinglow.melanin_fraction == np.float32(0.123) and obj.skinglow.preset == "CUSTOM"
+    # The menu names another one by now, which is not the user's.
+    bpy.ops.skinglow.apply_preset(preset="LIGHT")
+    refused(RuntimeError, "comes with Skinglow", bpy.ops.skinglow.add_skin_preset, remove_active=True)
+    assert bpy.utils.preset_find(menu_label(menu), "skinglow/skin", display_name=True)
+    bpy.ops.script.execute_preset(filepath=files[0][1], menu_idname=menu)
     bpy.ops.skinglow.add_skin_preset(name="Tanned", remove_active=True)
     assert not [path for folder in paths for path in bpy.path.module_names(folder)]
 

@@ -1,8 +1,14 @@
 """Frozen light through the shape: a second sequence holds the tiles."""
 
+import os
+import signal
+from pathlib import Path
+
 import bpy
 import numpy as np
 import skinglow_blender as sb
+from skinglow_blender.commands.freezing import frozen_state
+from skinglow_blender.live import shape_update
 from skinglow_blender.show.tile_image import TILES
 
 from inside.freeze import FIRST, ball, pictures_of, render_without_add_on
@@ -52,3 +58,54 @@ def check_through_the_shape(work):
     assert len(TILES.all_of(through.skinglow.group)) == 4
     np.testing.assert_array_equal(render_here(work / "again"), live)
     assert not [image for image in bpy.data.images if image.source == "SEQUENCE"]
+
+
+def check_canceled_while_it_waits_for_light(work):
+    """Ctrl-C ends what a frame waits for: nothing is left of it, by a script and by the button alike."""
+    work = work / "canceled"
+    work.mkdir()
+    key = add_light("Key", energy=40.0, location=(0.0, 0.3, -1.5))
+    obj = ball("Through", (0.0, 0.0, 0.0))
+    obj.scale = (1.0, 1.0, 0.3)
+    sb.make_skin(obj, thickness=[4.0] * len(obj.data.vertices), unit_mm=10.0, weights="shape", cell_mm=1.2)
+    for frame in (FIRST, LAST):
+        key.location.x = 0.5 * frame - 2.0
+        key.keyframe_insert("location", frame=frame)
+    camera_above(4.5)
+    scene = render_settings(8, 8)
+    scene.frame_start, scene.frame_end = FIRST, LAST
+    scene.frame_set(FIRST)
+    bpy.ops.wm.save_as_mainfile(filepath=str(work / "shape.blend"))
+    go_on, asked, heard = shape_update.may_go_on, [], []
+
+    def press_in_the_second_frame(fraction):
+        if scene.frame_current == LAST:
+            if not asked:
+                os.kill(os.getpid(), signal.SIGINT)
+            asked.append(fraction)
+        return go_on(fraction)
+
+    of_blender = signal.getsignal(signal.SIGINT) is None
+    before = None if of_blender else signal.signal(signal.SIGINT, lambda number, _frame: heard.append(number))
+    obj.select_set(True)
+    bpy.context.view_layer.objects.active = obj
+    try:
+        for begin in (sb.freeze, lambda: bpy.ops.skinglow.freeze("EXEC_DEFAULT")):
+            asked.clear()
+            shape_update.may_go_on = press_in_the_second_frame
+            try:
+                begin()
+                raise AssertionError("freezing went on")
+            except (KeyboardInterrupt, RuntimeError) as error:
+                assert isinstance(error, KeyboardInterrupt) or "KeyboardInterrupt" in str(error), error
+            finally:
+                shape_update.may_go_on = go_on
+            assert len(asked) == 1 and scene.frame_current == FIRST, (asked, scene.frame_current)
+            assert frozen_state(obj) is None and not list((Path(work) / "skinglow_frozen").iterdir())
+            sb.update(bpy.context.evaluated_depsgraph_get())
+            assert not sb.health(obj), sb.health(obj)
+    finally:
+        if not of_blender:
+            signal.signal(signal.SIGINT, before)
+    assert of_blender or heard == 2 * [signal.SIGINT]
+    assert [each.skins for each in sb.freeze()] == [("Through",)]
