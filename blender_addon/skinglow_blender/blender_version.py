@@ -200,6 +200,11 @@ def light_receivers(obj: bpy.types.Object) -> bpy.types.Collection | None:
     return linking.receiver_collection if linking is not None else None
 
 
+def has_shadow_linking(obj: bpy.types.Object) -> bool:
+    """Whether only some objects cast shadows of a light (4.0)."""
+    return HAS_LIGHT_LINKING and obj.light_linking.blocker_collection is not None
+
+
 def corner_normals(mesh: bpy.types.Mesh) -> np.ndarray:
     """The shading normal of each face corner, (n_loops, 3) float32, in object space."""
     normals = np.empty(3 * len(mesh.loops), np.float32)

@@ -95,6 +95,8 @@ def read_light(
     object_name = obj.name if instancer else name
     shown_by = (instancer or obj).original
     note = note or placement.note or gamut_note or (_eevee_note(light) if target == "EEVEE" else "")
+    if not note and blender_version.has_shadow_linking(obj):
+        note = "its shadow linking is ignored: all objects block it alike"
     return SceneLight(name, object_name, shown_by, signature, receivers, excluded, unlit_reason, note, casts_shadows)
 
 

@@ -150,3 +150,20 @@ def check_what_only_eevee_follows_is_noted(_work):
     assert "EEVEE alone" in notes()[0]
     bpy.context.scene.render.engine = "CYCLES"
     assert notes() == [""]
+
+
+def check_shadow_linking_is_noted(_work):
+    light = add_light("Light")
+    obj = link(bpy.data.objects.new("Skin", bpy.data.meshes.new("Skin")))
+    obj.data.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
+    sb.make_skin(obj, thickness=[1.0] * 3)
+
+    def note():
+        return next(row["note"] for row in sb.light_report(obj, depsgraph()) if row["name"] == "Light")
+
+    assert note() == ""
+    if bpy.app.version >= (4, 0, 0):
+        light.light_linking.blocker_collection = bpy.data.collections.new("Blockers")
+        assert "shadow linking is ignored" in note()
+        light.light_linking.blocker_collection = None
+        assert note() == ""
