@@ -1,159 +1,35 @@
-"""The whole chain against the Monte Carlo truth: an ear rendered with the add-on's own material, pixel by pixel.
+"""The whole chain against the Monte Carlo truth, each lighting: an ear rendered with the add-on's own material.
 
 Run in a Blender whose Python finds skinglow; needs ../shared/data/shape:
 
     python tests/benchmarks/blender_shape_truth.py [SIZE]         # a bpy wheel
 
-The truths' medium and light: skin 1 of Jensen et al., index matched, a spot behind the ear, without light that enters
-again. The table that light through the shape is compared with is that of the default skin, another medium. For each ear
-and lighting: RMS over mean, percent, of the pixels that show back-lit skin (all three channels together, and each),
-without the noise of the truth, whose two halves differ; and brightness over the truth's.
+For each ear and lighting what tests/blender/ear_truth.py compares: RMS over mean, percent, of the pixels that show
+back-lit skin (all three channels together, and each), without the noise of the truth, whose two halves differ; and
+brightness over the truth's.
 """
 
+import os
 import sys
-import time
+import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "blender_addon"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "blender"))
 
-import bpy  # noqa: E402
-import numpy as np  # noqa: E402
-import skinglow as sg  # noqa: E402
-import skinglow_blender as sb  # noqa: E402
-from mathutils import Matrix, Vector  # noqa: E402
-
-DATA = ROOT.parent / "shared" / "data" / "shape"
-MEDIUM = {"absorption": (0.032, 0.17, 0.48), "reduced_scattering": (0.74, 0.88, 1.01), "refractive_index": 1.0}
-#: From the ear to the light and to the camera; how far the light is, its radius and the width of its beam, mm.
-TO_LIGHT, TO_CAMERA = np.array((-0.2, 0.97, 0.1)), np.array((-0.45, -0.89, 0.0))
-DISTANCE, RADIUS, BEAM = 400.0, 50.0, 78.0
-ACROSS = 80.0
-
-
-def build(name: str, size: int) -> tuple[bpy.types.Object, dict, float]:
-    """Scene in mm; the light's power is that of the truth's irradiance."""
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    truth, mesh = dict(np.load(DATA / f"{name}.npz")), np.load(DATA / f"{name.split('-')[0]}_mesh.npz")
-    vertices, triangles = mesh["vertices_mm"].astype(float), mesh["triangles"]
-    center = truth["ear_centre_mm"].astype(float)
-    data = bpy.data.meshes.new(name)
-    data.from_pydata((vertices - center).tolist(), [], triangles.tolist())
-    data.polygons.foreach_set("use_smooth", [True] * len(triangles))
-    obj = bpy.data.objects.new(name, data)
-    scene = bpy.context.scene
-    scene.collection.objects.link(obj)
-    to_light = TO_LIGHT if name.startswith("lps") else TO_LIGHT / np.linalg.norm(TO_LIGHT)
-    half = np.arctan(BEAM / 2.0 / DISTANCE)
-    blend = (np.cos(0.8 * half) - np.cos(half)) / (1.0 - np.cos(half))
-    place, axis = DISTANCE * to_light, -to_light / np.linalg.norm(to_light)
-    fields = {"radius": RADIUS, "spot_angle": 2.0 * half, "spot_blend": blend}
-    lamp = sg.Light("SPOT", (1, 1, 1), tuple(place), tuple(axis), power=1.0, **fields)
-    normals = np.empty(3 * len(vertices), np.float32)
-    data.vertices.foreach_get("normal", normals)
-    free = sg.surface_irradiance([lamp], vertices - center, normals.reshape(-1, 3))[:, 0]
-    lit = truth["irradiance"] > 0.5 * np.percentile(truth["irradiance"], 99.9)
-    power = float(np.median(truth["irradiance"][lit] / free[lit]))
-    spread = float(np.std(truth["irradiance"][lit] / free[lit])) / power
-    print(f"{name}: irradiance over the truth's where it is bright differs by {spread:.1%}")
-    light = bpy.data.lights.new("Light", "SPOT")
-    light.energy, light.shadow_soft_size = power, RADIUS
-    light.spot_size, light.spot_blend = 2.0 * half, blend
-    thing = bpy.data.objects.new("Light", light)
-    thing.location, thing.rotation_euler = place, Vector(axis).to_track_quat("-Z", "Y").to_euler()
-    scene.collection.objects.link(thing)
-    camera = bpy.data.cameras.new("Camera")
-    camera.type, camera.ortho_scale, camera.clip_end = "ORTHO", ACROSS, 1000.0
-    view = bpy.data.objects.new("Camera", camera)
-    direction = Vector(TO_CAMERA).normalized()
-    view.matrix_world = Matrix.Translation(300.0 * direction) @ direction.to_track_quat("Z", "Y").to_matrix().to_4x4()
-    scene.collection.objects.link(view)
-    scene.camera = view
-    scene.render.engine = "CYCLES"
-    scene.render.resolution_x = scene.render.resolution_y = size
-    scene.cycles.samples, scene.cycles.use_denoising = 1, False
-    scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", 0.01
-    scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
-    material = bpy.data.materials.new("Black")
-    if bpy.app.version < (5, 0, 0):
-        material.use_nodes = True
-    tree = material.node_tree
-    tree.nodes.clear()
-    emission = tree.nodes.new("ShaderNodeEmission")
-    emission.inputs["Strength"].default_value = 0.0
-    tree.links.new(emission.outputs[0], tree.nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
-    data.materials.append(material)
-    return obj, truth, half
-
-
-def picture() -> np.ndarray:
-    path = "/tmp/skinglow_shape_truth.exr"
-    bpy.context.scene.render.filepath = path
-    bpy.ops.render.render(write_still=True)
-    image = bpy.data.images.load(path, check_existing=False)
-    pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)
-    image.pixels.foreach_get(pixels)
-    size = image.size[:]
-    bpy.data.images.remove(image)
-    return pixels.reshape(size[1], size[0], 4)[..., :3]
-
-
-def truth_pixels(obj: bpy.types.Object, truth: dict, size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Both halves of the truth at the pixels, radiance, and which pixels show back-lit skin alone."""
-    index = np.full(len(obj.data.vertices), -1)
-    index[truth["vertex"]] = np.arange(len(truth["vertex"]))
-    view = bpy.context.scene.camera.matrix_world
-    halves, chosen = np.zeros((2, size, size, 3)), np.zeros((size, size), bool)
-    back = truth["back_lit"]
-    for y in range(size):
-        for x in range(size):
-            start = view @ Vector((((x + 0.5) / size - 0.5) * ACROSS, ((y + 0.5) / size - 0.5) * ACROSS, 0.0))
-            hit, place, _normal, face = obj.ray_cast(start, view.to_3x3() @ Vector((0, 0, -1)))
-            if not hit:
-                continue
-            corners = list(obj.data.polygons[face].vertices)
-            known = index[corners]
-            if (known < 0).any() or not back[known].all():
-                continue
-            a, b, c = (np.array(obj.data.vertices[v].co, float) for v in corners)
-            weights, *_ = np.linalg.lstsq(np.c_[[a - c, b - c]].T, np.array(place, float) - c, rcond=None)
-            weights = np.array((*weights, 1.0 - weights.sum()))
-            chosen[y, x] = True
-            for k, half in enumerate(("exitance_half_a", "exitance_half_b")):
-                halves[k, y, x] = weights @ truth[half][known].astype(float) / np.pi
-    return halves[0], halves[1], chosen
-
-
-def errors(found: np.ndarray, a: np.ndarray, b: np.ndarray) -> str:
-    mean = 0.5 * (a + b).mean(axis=0)
-    squared = ((found - a) * (found - b)).mean(axis=0)
-    each = 100.0 * np.sqrt(np.maximum(squared, 0.0)) / mean
-    together = 100.0 * np.sqrt(max(squared.mean(), 0.0)) / mean.mean()
-    bright = found.mean(axis=0) / mean
-    return f"all {together:.1f} %, R G B {each.round(1)} %, brightness {bright.round(2)}"
+from ear_truth import differences  # noqa: E402
 
 
 def main() -> None:
     size = int(sys.argv[1]) if len(sys.argv) > 1 else 160
-    for name in ("lps-a", "mh-a"):
-        obj, truth, _half = build(name, size)
-        a, b, chosen = truth_pixels(obj, truth, size)
-        for weights in ("object", "surface", "shape"):
-            started = time.perf_counter()
-            state = sb.make_skin(obj, unit_mm=1.0, weights=weights, reentries=0)
-            if weights == "shape":
-                sb.set_medium(obj, **MEDIUM)
-                sb.update(bpy.context.evaluated_depsgraph_get())
-                state = sb.state_of(obj, bpy.context.evaluated_depsgraph_get())
-                assert state.shape.reason is None, state.shape.reason
-            seconds = time.perf_counter() - started
-            found = picture()[chosen]
-            print(f"{name} {weights}: {chosen.sum()} pixels, {seconds:.1f} s, {errors(found, a[chosen], b[chosen])}")
-            if state.shape is not None:
-                print(f"    {state.shape}")
-        sys.stdout.flush()
+    for ear in ("lps-a", "mh-a"):
+        with tempfile.TemporaryDirectory() as folder:
+            for weights, found in differences(ear, size, ("object", "surface", "shape"), Path(folder)):
+                channels = ", ".join(f"{100.0 * value:.1f}" for value in found.channels)
+                bright = ", ".join(f"{value:.2f}" for value in found.brightness)
+                print(f"{ear} {weights}: {found.pixels} pixels, {found.seconds:.1f} s, all {100.0 * found.rms:.1f} %")
+                print(f"    R G B {channels} %, brightness {bright}", flush=True)
 
 
 main()
 sys.stdout.flush()
-__import__("os")._exit(0)
+os._exit(0)  # the 4.5 wheel hangs otherwise

@@ -7,7 +7,8 @@ Run in a Blender whose Python finds skinglow:
     frame    CPU time of a frame, 128 x 128 at 64 samples, the smallest of five, s, in turns; in Cycles on one thread.
              The surface below the light of the skin is black and gets no light, so that Cycles has nothing to do but
              to find the point of the skin and run the nodes; or diffuse, in one light, the least that lit skin can be;
-             or a Principled BSDF that four lights shine on
+             or a Principled BSDF that four lights shine on. "four reads" is the least that tiles can be: four texels
+             of their image at the coordinates that the mesh has, added up
     write    from pixels in memory to the image of the renderer that is shown, median of 50, ms, by the image's rows
 """
 
@@ -26,9 +27,10 @@ import skinglow as sg  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
 from skinglow_blender.live import handlers  # noqa: E402
 from skinglow_blender.show.group_nodes import GroupNodes, build_nodes  # noqa: E402
+from skinglow_blender.show.node_building import NodeBuilder  # noqa: E402
 from skinglow_blender.show.tile_image import TILES, place_tiles, show_tiles, tile_atlas  # noqa: E402
 from skinglow_blender.table.lut_layout import Layout  # noqa: E402
-from skinglow_blender.thickness.tile_attribute import ensure_tiles, rows_of  # noqa: E402
+from skinglow_blender.thickness.tile_attribute import TEXEL_ATTRIBUTE, ensure_tiles, rows_of  # noqa: E402
 
 ROUNDS = 5
 #: What is below the light of the skin, and how many lights there are.
@@ -83,8 +85,24 @@ def set_surface(material: bpy.types.Material, kind: str) -> None:
     tree.links.new(surface.outputs[0], output.inputs["Surface"])
 
 
-def plain_emission(material: bpy.types.Material) -> None:
-    """Emission of one color added to the surface, as the skin's node does it."""
+def four_reads(material: bpy.types.Material, image: bpy.types.Image) -> None:
+    """The sum of four texels of an image of tiles added to the surface."""
+    emission = plain_emission(material)
+    build = NodeBuilder(material.node_tree, 0.0, 0.0)
+    at = build.attribute("GEOMETRY", TEXEL_ATTRIBUTE, "Texel").outputs["Vector"]
+    total = None
+    for step in ((0.5, 0.5, 0.0), (1.5, 0.5, 0.0), (0.5, 1.5, 0.0), (1.5, 1.5, 0.0)):
+        size = tuple(1.0 / n for n in image.size)
+        shift = tuple(a * b for a, b in zip(step, (*size, 0.0), strict=True))
+        texel = build.texel(build.vector("MULTIPLY_ADD", at, (*size, 0.0), shift), "Texel")
+        texel.image = image
+        color = texel.outputs["Color"]
+        total = color if total is None else build.vector("ADD", total, color)
+    build.set(emission.inputs["Color"], total)
+
+
+def plain_emission(material: bpy.types.Material) -> bpy.types.Node:
+    """Emission of one color added to the surface, as the skin's node does it; returns its node."""
     tree = tree_of(material)
     surface = next(node for node in tree.nodes if node.bl_idname == "ShaderNodeOutputMaterial").inputs["Surface"]
     emission, add = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeAddShader")
@@ -93,6 +111,7 @@ def plain_emission(material: bpy.types.Material) -> None:
     tree.links.new(emission.outputs[0], add.inputs[1])
     tree.links.new(add.outputs[0], surface)
     sb.blender_version.set_emission_sampling(material, sb.blender_version.NO_EMISSION_SAMPLING)
+    return emission
 
 
 def show_random(ball: bpy.types.Object, mode: str) -> None:
@@ -122,15 +141,19 @@ def frames(segments: int, kind: str, lights: int, engine: str) -> dict[str, floa
     ball = scene(segments, lights, engine)
     plain = bpy.data.materials.new("Plain")
     set_surface(plain, kind)
-    skin_material = plain.copy()
+    skin_material, bare = plain.copy(), plain.copy()
     plain_emission(plain)
     ball.data.materials.append(skin_material)
     sb.make_skin(ball, thickness=[2.0] * len(ball.data.vertices), unit_mm=1.0, mode="physical", weights="object")
     handlers.unregister()
+    build_nodes(ball.skinglow.group, WAYS["tiles"][0])
+    show_random(ball, "RENDER")
+    four_reads(bare, TILES.shown(ball.skinglow.group))
     best: dict[str, float] = {}
     for _ in range(ROUNDS):
-        ball.data.materials[0] = plain
-        best["emission"] = min(best.get("emission", 1e9), cpu_seconds())
+        for name, material in (("emission", plain), ("four reads", bare)):
+            ball.data.materials[0] = material
+            best[name] = min(best.get(name, 1e9), cpu_seconds())
         ball.data.materials[0] = skin_material
         for name, (nodes, shows_tiles) in WAYS.items():
             build_nodes(ball.skinglow.group, nodes)

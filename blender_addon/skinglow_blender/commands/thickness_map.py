@@ -122,7 +122,7 @@ def _uv_of(obj: bpy.types.Object) -> np.ndarray:
 
 
 def _triangles_in_uv(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
-    """Places (m, 3, 2) in the UV map and thicknesses (m, 3), mm, of the triangles whose thickness is known."""
+    """Coordinates (m, 3, 2) in the UV map and thicknesses (m, 3), mm, of the triangles whose thickness is known."""
     mesh = obj.data
     thickness, known = thickness_attribute.read(mesh)
     world_size = abs(obj.matrix_world.to_3x3().determinant()) ** (1.0 / 3.0)

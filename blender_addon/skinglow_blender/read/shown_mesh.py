@@ -128,8 +128,8 @@ class Frame(NamedTuple):
 
 def frame_of(matrix: Matrix) -> Frame:
     """The frame of an object with that world matrix."""
-    place, rotation, _scale = matrix.decompose()
-    rigid = Matrix.Translation(place) @ rotation.normalized().to_matrix().to_4x4()
+    location, rotation, _scale = matrix.decompose()
+    rigid = Matrix.Translation(location) @ rotation.normalized().to_matrix().to_4x4()
     # In double precision, in which the rotation's inverse is its transpose.
     turned = np.array(rigid, np.float64)[:3, :3].T @ np.array(matrix, np.float64)[:3, :3]
     return Frame(tuple(map(tuple, rigid)), tuple(map(tuple, turned.tolist())))

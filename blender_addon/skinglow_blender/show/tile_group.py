@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The nodes that read light from tiles: four texels about a point of the skin, interpolated.
 
-Each corner of the mesh stores its place in texels, which Blender interpolates over the face like a UV map; so the
-coordinates follow every modifier that keeps attributes, and no place in space is involved.
+Each corner of the mesh stores its texel coordinates, which Blender interpolates over the face like a UV map; so they
+follow every modifier that keeps attributes, and no location in space is involved.
 """
 
 from typing import NamedTuple
