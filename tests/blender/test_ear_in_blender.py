@@ -9,7 +9,8 @@ from hosts import HERE, host_named
 
 #: Pixels across; back-lit skin is 999 of MakeHuman's, 2,445 of the scan's.
 SIZE = 160
-EARS = ("lps-a", "mh-a")
+#: By ear the largest RMS over mean; the README says 3.3 and 5.4 %.
+EARS = {"lps-a": 0.045, "mh-a": 0.06}
 
 
 @pytest.fixture(scope="module")
@@ -33,8 +34,7 @@ def found(tmp_path_factory):
 def test_through_the_shape_an_ear_is_as_the_monte_carlo_has_it(found, ear):
     through = found[ear]["shape"]
     assert through["pixels"] > 900
-    # The README says 4.7 and 5.4 %.
-    assert through["rms"] < 0.06, through
+    assert through["rms"] < EARS[ear], through
     assert max(through["channels"]) < 0.15, through
     assert through["brightness"] == pytest.approx([1.0] * 3, abs=0.05)
 
