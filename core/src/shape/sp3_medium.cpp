@@ -61,8 +61,8 @@ Boundary boundary_of(double n, ShapeSurface surface) {
     const std::array<double (*)(double), 2> odd = {[](double x) { return 1.5 * x; },
                                                    [](double x) { return 3.5 * p3(x); }};
     const double diffuse_inside = rough ? diffuse.inside : 0.0;
-    double a[2][2];
-    double o[2][2];
+    double a[2][2]{};
+    double o[2][2]{};
     std::array<double, 2> s{};
     // Irradiance 1 from outside comes in as 2 T / E per unit of cosine: T constant where rough, Fresnel's n^2
     // (1 - R) where smooth.
