@@ -184,6 +184,19 @@ def test_awkward_meshes_enclose_the_same_flesh(name):
     assert (error < 0.06).all(), error
 
 
+def test_an_open_neck_does_not_change_the_light_above_it():
+    """A long body cut open below, as a head's mesh ends at its neck."""
+    vertices, triangles = bodies.ball(4.0)
+    vertices = vertices * [1.0, 1.0, 4.0]
+    is_low = vertices[:, 2] < -10.0
+    light = np.maximum(vertices[:, 0] / 4.0, 0.0) * ~is_low
+    expected = sg.Shape(vertices, triangles, **SKIN).exitance(light)
+    found = sg.Shape(vertices, triangles[~is_low[triangles].any(axis=1)], **SKIN).exitance(light)
+    above = vertices[:, 2] > 0.0
+    error = np.sqrt(((found - expected)[above] ** 2).mean(axis=0)) / expected[above].mean(axis=0)
+    assert (error < 0.02).all(), error
+
+
 @pytest.mark.parametrize("cell_mm", [0.8, 5.0, 50.0])
 def test_cells_are_never_larger_than_the_flesh(cell_mm):
     body = bodies.ball(4.0)

@@ -270,19 +270,27 @@ LastFlight last_flight(const FleshSurface& surface, const VoxelGrid& grid, const
                 stop_if_asked(8 * i);
                 tracer.trace(all, sites[i], rows[b]);
             }
+            rows[b].of_fluence.shrink();
+            rows[b].of_light.shrink();
             finish_work(static_cast<double>(last - b * sites_per_block));
         }
     };
     for_each_block(blocks, options.threads, work, {}, per_run);
     LastFlight result;
+    std::size_t of_fluence = 0;
+    std::size_t of_light = 0;
+    for (const LastFlight& block : rows) {
+        of_fluence += block.of_fluence.entries();
+        of_light += block.of_light.entries();
+    }
+    result.of_fluence.reserve(sites.size(), of_fluence);
+    result.of_light.reserve(sites.size(), of_light);
     for (LastFlight& block : rows) {
         stop_if_asked();
         result.of_fluence.append(block.of_fluence);
         result.of_light.append(block.of_light);
         block = {};
     }
-    result.of_fluence.shrink();
-    result.of_light.shrink();
     return result;
 }
 

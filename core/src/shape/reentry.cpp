@@ -63,8 +63,13 @@ Reentry::Reentry(const FleshSurface& surface, const SurfaceSites& sites, std::sp
         }
     };
     for_each_block(blocks, threads, work, {}, std::max<std::size_t>(1, blocks / 16));
-    for (const SparseRows<float>& part : parts) rows_.append(part);
-    rows_.shrink();
+    std::size_t entries = 0;
+    for (const SparseRows<float>& part : parts) entries += part.entries();
+    rows_.reserve(chosen.size(), entries);
+    for (SparseRows<float>& part : parts) {
+        rows_.append(part);
+        part = {};
+    }
     for (const std::uint32_t v : rows_.all_columns()) seen_[v] = 1;
 }
 

@@ -17,7 +17,7 @@ constexpr double per_fall_of_cell = 0.030;
 constexpr double cell_power = 1.3;
 /// Light that falls by more than a power of e in a cell is off by less than by the power of the cell.
 constexpr double cell_saturation = 0.25;
-/// Smooth surfaces are further off: where they are round they focus, which SP3 knows nothing of.
+/// Smooth surfaces are further off: where they are round they focus, which SP3 knows about in part.
 constexpr double of_smooth = 1.5;
 /// Of a tissue, between the nodes.
 constexpr double of_spectrum = 0.04;

@@ -61,8 +61,8 @@ Boundary boundary_of(double n, ShapeSurface surface) {
     const std::array<double (*)(double), 2> odd = {[](double x) { return 1.5 * x; },
                                                    [](double x) { return 3.5 * p3(x); }};
     const double diffuse_inside = rough ? diffuse.inside : 0.0;
-    double a[2][2];
-    double o[2][2];
+    double a[2][2]{};
+    double o[2][2]{};
     std::array<double, 2> s{};
     // Irradiance 1 from outside comes in as 2 T / E per unit of cosine: T constant where rough, Fresnel's n^2
     // (1 - R) where smooth.
@@ -96,6 +96,30 @@ Boundary boundary_of(double n, ShapeSurface surface) {
     return {matrix, to_flux * s};
 }
 
+/// The modes of the reaction: phi = vectors psi.
+struct Modes {
+    Matrix2 vectors;
+    std::array<double, 2> decay;
+};
+
+Modes modes_of(double absorption, double st) {
+    // Reaction over diffusion, D^-1/2 C D^-1/2, and its eigenvectors as a rotation. The smaller eigenvalue by
+    // the determinant, which does not cancel where the absorption is small.
+    const double c11 = 3 * st * absorption;
+    const double c12 = -std::sqrt(21.0) * st * (2.0 / 3) * absorption;
+    const double c22 = 7 * st * (4.0 / 9 * absorption + 5.0 / 9 * st);
+    const double half_difference = 0.5 * (c22 - c11);
+    const double large = 0.5 * (c11 + c22) + std::hypot(half_difference, c12);
+    const double small = 21 * st * st * (5.0 / 9 * st * absorption) / large;
+    const double angle = 0.5 * std::atan2(2 * c12, c11 - c22);  // of the larger one's eigenvector to axis 1
+    const double root1 = std::sqrt(3 * st);
+    const double root2 = std::sqrt(7 * st);
+    // Columns: the smaller eigenvalue's vector first. phi = modes psi.
+    const Matrix2 vectors{-root1 * std::sin(angle), root1 * std::cos(angle), root2 * std::cos(angle),
+                          root2 * std::sin(angle)};
+    return {vectors, {std::sqrt(small), std::sqrt(large)}};
+}
+
 /// The exitance of a half-space by the same equations: psi = (B + decay)^-1 s E at its surface, falling as
 /// exp(-decay z); and the same last flight as the gather's, whose rays never come to another wall.
 double half_space_exitance(const Sp3Medium& medium) {
@@ -124,20 +148,8 @@ Sp3Medium sp3_medium(double absorption, double reduced_scattering, double refrac
                      ShapeSurface surface) {
     const double st = absorption + reduced_scattering;
     const Boundary boundary = boundary_of(refractive_index, surface);
-    // Reaction over diffusion, D^-1/2 C D^-1/2, and its eigenvectors as a rotation. The smaller eigenvalue by
-    // the determinant, which does not cancel where the absorption is small.
-    const double c11 = 3 * st * absorption;
-    const double c12 = -std::sqrt(21.0) * st * (2.0 / 3) * absorption;
-    const double c22 = 7 * st * (4.0 / 9 * absorption + 5.0 / 9 * st);
-    const double half_difference = 0.5 * (c22 - c11);
-    const double large = 0.5 * (c11 + c22) + std::hypot(half_difference, c12);
-    const double small = 21 * st * st * (5.0 / 9 * st * absorption) / large;
-    const double angle = 0.5 * std::atan2(2 * c12, c11 - c22);  // of the larger one's eigenvector to axis 1
-    const double root1 = std::sqrt(3 * st);
-    const double root2 = std::sqrt(7 * st);
-    // Columns: the smaller eigenvalue's vector first. phi = modes psi.
-    const Matrix2 modes{-root1 * std::sin(angle), root1 * std::cos(angle), root2 * std::cos(angle),
-                        root2 * std::sin(angle)};
+    const Modes of = modes_of(absorption, st);
+    const Matrix2& modes = of.vectors;
     const Matrix2 turned = modes.transposed() * boundary.matrix * modes;
     const std::array<double, 2> source = modes.transposed() * boundary.source;
     const bool rough = surface == ShapeSurface::rough;
@@ -145,7 +157,7 @@ Sp3Medium sp3_medium(double absorption, double reduced_scattering, double refrac
     Sp3Medium medium{
         .extinction = st,
         .albedo = reduced_scattering / st,
-        .decay = {std::sqrt(small), std::sqrt(large)},
+        .decay = {of.decay[0], of.decay[1]},
         .boundary = {turned.a11, 0.5 * (turned.a12 + turned.a21), turned.a22},
         .source = {source[0], source[1]},
         .fluence = {modes.a11 - 2.0 / 3 * modes.a21, modes.a12 - 2.0 / 3 * modes.a22},
@@ -182,12 +194,22 @@ SurfaceLink surface_link(const Sp3Medium& medium, double depth) {
 }
 
 Sp3Medium at_round_surface(Sp3Medium medium, double curvature) {
-    if (medium.refractive_index > 1) return medium;
-    const double free_share = (1 - medium.inside_reflectance) / (1 + medium.inside_reflectance);
-    const double more = 0.5 * free_share * curvature;
+    const double n = medium.refractive_index;
+    const bool smooth = n > 1;
+    const double inside = smooth ? diffuse_reflectance(n).inside : medium.inside_reflectance;
+    const double free_share = (1 - inside) / (1 + inside);
+    const double strength = free_share * (0.5 + (smooth ? 1.25 * (1 - free_share) : 0.0));
     double* b = medium.boundary;
-    const Matrix2 inverse = Matrix2{b[0], b[1], b[1], b[2]}.inverse();
-    const std::array<double, 2> in_balance = inverse * std::array{medium.source[0], medium.source[1]};
+    const double least = 0.5 * (b[0] + b[2]) - std::hypot(0.5 * (b[0] - b[2]), b[1]);
+    // Where the body is hollow, the condition stays one that lets light out.
+    const double more = std::max(strength * curvature, -0.5 * least);
+    std::array<double, 2> in_balance =
+        Matrix2{b[0], b[1], b[1], b[2]}.inverse() * std::array{medium.source[0], medium.source[1]};
+    if (smooth) {
+        // Its B is made symmetric, and so has another balance than the light: fluence 4 n^2 E, alike in all directions.
+        const double absorption = medium.extinction * (1 - medium.albedo);
+        in_balance = modes_of(absorption, medium.extinction).vectors.inverse() * std::array{4 * n * n, 0.0};
+    }
     for (std::size_t i = 0; i < 2; ++i) medium.source[i] += more * in_balance[i];
     b[0] += more;
     b[2] += more;

@@ -58,10 +58,11 @@ struct SurfaceLink {
 SurfaceLink surface_link(const Sp3Medium& medium, double depth);
 
 /// The medium with the condition of a surface that is round: B + c curvature, s + c curvature B^-1 s with c = r / 2 and
-/// r as in the condition of a rough surface. Marshak's condition is that of a plane: light leaves a ball more easily,
-/// as more of what arrives comes straight from its inside. c is chosen by the Monte Carlo of balls of 2 and 3 mm; a
-/// sphere by itself in the transport theory of isotropic scattering has c = 1. Light in equilibrium with what falls on
-/// the body stays as it is. A smooth surface with an index focuses besides; it is left as it is.
+/// r = (1 - Ri) / (1 + Ri), Ri the reflectance of the surface for diffuse light from inside; c = r / 2 + 5/4 r (1 - r)
+/// where a smooth surface has an index and focuses besides. Marshak's condition is that of a plane: light leaves a ball
+/// more easily, as more of what arrives comes straight from its inside. c is chosen by the Monte Carlo of balls of 1.5
+/// to 6 mm; a sphere by itself in the transport theory of isotropic scattering has c = 1. Light in equilibrium with
+/// what falls on the body stays as it is. Hollow surfaces change B by half of its least eigenvalue at most.
 /// @param curvature  mean, 1/mm, above 0 where the body is convex; up to the extinction either way
 Sp3Medium at_round_surface(Sp3Medium medium, double curvature);
 

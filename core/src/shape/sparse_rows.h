@@ -26,6 +26,13 @@ class SparseRows {
     }
     void end_row() { begin_.push_back(static_cast<std::uint32_t>(column_.size())); }
 
+    /// Memory for rows and entries that will be appended, so that none of it is held twice while they are.
+    void reserve(std::size_t rows, std::size_t entries) {
+        begin_.reserve(rows + 1);
+        column_.reserve(entries);
+        value_.reserve(entries);
+    }
+
     /// Rows of another matrix after those that are here.
     void append(const SparseRows& other) {
         const std::uint32_t shift = begin_.back();
