@@ -16,19 +16,46 @@ from studies.progress import StudyError
 class Study:
     about: str
     needs: tuple[str, ...] = ("package",)
+    pictures: tuple[str, ...] = ()  #: of docs/images, which it makes
 
 
 STUDIES = {
-    "demo": Study("a head lit from behind in Blender and POV-Ray: out/index.html", ("package", "blender", "povray")),
-    "accuracy": Study("errors and times of the skin optics: docs/accuracy.md; three minutes"),
-    "ear": Study("a back-lit ear by every table against random walk: docs/accuracy.md", ("package", "blender")),
-    "ladder": Study("an ear by every method, error against run time: docs/accuracy.md", ("package", "blender")),
-    "shape": Study("light through the shape against Monte Carlo: docs/shape.md", ("package", "blender")),
-    "batch": Study("the example of docs/batch.md: frames x light rigs", ("package", "blender")),
-    "panel": Study("the pictures of the panel in docs/blender.md", ("package",)),
-    "povray": Study("the picture of docs/povray.md, by POV-Ray alone", ("povray",)),
-    "turn": Study("a light carried round an ear: docs/images/round_the_ear.png", ("package", "blender")),
-    "architecture": Study("docs/images/architecture.svg from the includes of the core", ()),
+    "demo": Study(
+        "a head lit from behind in Blender and POV-Ray: out/index.html",
+        ("package", "blender", "povray"),
+        ("hero.jpg", "color_change.png", "physical.png", "light_output.png"),
+    ),
+    "accuracy": Study(
+        "errors and times of the skin optics: docs/accuracy.md; three minutes",
+        pictures=tuple(f"accuracy_{name}.png" for name in ("presets", "methods", "solver", "table", "estimate")),
+    ),
+    "ear": Study(
+        "a back-lit ear by every table against random walk: docs/accuracy.md",
+        ("package", "blender"),
+        ("ear_pictures.png", "ear_error.png"),
+    ),
+    "ladder": Study(
+        "an ear by every method, error against run time: docs/accuracy.md",
+        ("package", "blender"),
+        tuple(f"ladder_{head}{kind}.png" for head in ("scan", "person", "suzanne") for kind in ("", "_pictures")),
+    ),
+    "shape": Study(
+        "light through the shape against Monte Carlo: docs/shape.md",
+        ("package", "blender"),
+        ("shape_scan.png", "shape_makehuman.png"),
+    ),
+    "batch": Study("the example of docs/batch.md: frames x light rigs", ("package", "blender"), ("batch_example.png",)),
+    "panel": Study(
+        "the pictures of Blender's window in docs/blender.md",
+        pictures=("guide_select.png", "panel.png", "guide_ear.png", "thickness.png", "panel_3_4.png"),
+    ),
+    "povray": Study("the picture of docs/povray.md, by POV-Ray alone", ("povray",), ("povray_example.png",)),
+    "turn": Study(
+        "a light carried round an ear: the first picture of docs/blender.md",
+        ("package", "blender"),
+        ("round_the_ear.png", "round_the_ear_film.jpg"),
+    ),
+    "architecture": Study("the folders of the core by their includes", (), ("architecture.svg",)),
 }
 
 

@@ -1,4 +1,4 @@
-"""Runs inside Blender: a head at real size, a camera on its ear, lights from a rig. Scene units are meters."""
+"""Runs inside Blender: scenes, cameras, lights from a rig, and passes. Scene units are meters."""
 
 from __future__ import annotations
 
@@ -9,14 +9,11 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-import bmesh
 import bpy
 import numpy as np
 import skinglow as sg
-from mathutils import Matrix, Vector
+from mathutils import Vector
 from skinglow_blender.batch.rig_lights import add_lights
-
-HEAD_HEIGHT_M = 0.26
 
 
 def empty_scene() -> bpy.types.Scene:
@@ -33,127 +30,6 @@ def empty_scene() -> bpy.types.Scene:
     background = scene.world.node_tree.nodes["Background"]
     background.inputs["Color"].default_value = (0.010, 0.011, 0.013, 1.0)
     return scene
-
-
-def load_head(job: dict[str, Any]) -> bpy.types.Object:
-    """The mesh of the job as one object, in meters, UV seams welded, smooth, subdivided for a smooth silhouette."""
-    eyes: list[bpy.types.Object] = []
-    if job["mesh"] == "suzanne":
-        bpy.ops.mesh.primitive_monkey_add()
-        objects = [bpy.context.object]
-    else:
-        found = _import(Path(job["mesh"]), split_groups=job["group"] is not None)
-        objects = [o for o in found if job["group"] is None or o.name == job["group"]]
-        eyes = [o for o in found if o.name in job["eyes"]]
-        if not objects:
-            raise SystemExit(f"{job['mesh']}: contains no mesh" + (f' "{job["group"]}"' if job["group"] else ""))
-        for thing in [o for o in bpy.data.objects if o not in objects + eyes]:
-            bpy.data.objects.remove(thing)
-    for thing in eyes:
-        _at_real_size(thing, job["unit_mm"])
-        _subdivide(thing, 2)
-        thing.data.materials.clear()
-        thing.data.materials.append(_eye_material())
-    head = _joined(objects)
-    _at_real_size(head, job["unit_mm"])
-    _clean(head.data, job["cut_below_m"])
-    levels = 2 if len(head.data.polygons) < 8000 else 1 if len(head.data.polygons) < 30000 else 0
-    if levels:
-        _subdivide(head, levels)
-    head.data.polygons.foreach_set("use_smooth", [True] * len(head.data.polygons))
-    head.name = "head"
-    return head
-
-
-def _at_real_size(thing: bpy.types.Object, unit_mm: float) -> None:
-    """Scales the vertices to meters and applies the object's transform."""
-    thing.data.transform(Matrix.Scale(unit_mm / 1000.0, 4) @ thing.matrix_world)
-    thing.matrix_world = Matrix()
-
-
-def _eye_material() -> bpy.types.Material:
-    material = bpy.data.materials.get("eye") or bpy.data.materials.new("eye")
-    if material.node_tree is None:
-        material.use_nodes = True
-    surface = material.node_tree.nodes["Principled BSDF"]
-    surface.inputs["Base Color"].default_value = (0.55, 0.52, 0.50, 1.0)
-    surface.inputs["Roughness"].default_value = 0.15
-    return material
-
-
-def _import(path: Path, split_groups: bool) -> list[bpy.types.Object]:
-    """Imports all meshes of a file, which may add its own scenes."""
-    suffix = path.suffix.lower()
-    if suffix in (".glb", ".gltf"):
-        bpy.ops.import_scene.gltf(filepath=str(path))
-    elif suffix == ".obj":
-        if "use_split_groups" in bpy.ops.wm.obj_import.get_rna_type().properties:
-            bpy.ops.wm.obj_import(filepath=str(path), use_split_groups=split_groups)
-        else:  # before Blender 3.6
-            bpy.ops.import_scene.obj(filepath=str(path), use_split_groups=split_groups)
-    elif suffix == ".ply" and hasattr(bpy.ops.wm, "ply_import"):
-        try:
-            bpy.ops.wm.ply_import(filepath=str(path))
-        except AttributeError:  # before Blender 3.6
-            bpy.ops.import_mesh.ply(filepath=str(path))
-    else:
-        raise SystemExit(f"{path}: unsupported mesh file; allowed: .glb, .gltf, .obj, .ply")
-    return [o for o in bpy.data.objects if o.type == "MESH"]
-
-
-def _joined(objects: list[bpy.types.Object]) -> bpy.types.Object:
-    head = objects[0]
-    for thing in objects:
-        if thing.name not in bpy.context.scene.collection.objects:
-            bpy.context.scene.collection.objects.link(thing)
-    if len(objects) > 1:
-        with bpy.context.temp_override(active_object=head, selected_editable_objects=objects):
-            bpy.ops.object.join()
-    return head
-
-
-def _clean(mesh: bpy.types.Mesh, cut_below_m: float | None) -> None:
-    work = bmesh.new()
-    work.from_mesh(mesh)
-    if cut_below_m is not None:
-        below = [v for v in work.verts if v.co.z < cut_below_m]
-        bmesh.ops.delete(work, geom=below, context="VERTS")
-    bmesh.ops.remove_doubles(work, verts=work.verts, dist=1e-6)
-    bmesh.ops.delete(work, geom=[v for v in work.verts if not v.link_faces], context="VERTS")
-    work.to_mesh(mesh)
-    work.free()
-
-
-def _subdivide(head: bpy.types.Object, levels: int) -> None:
-    modifier = head.modifiers.new("smooth", "SUBSURF")
-    modifier.levels = modifier.render_levels = levels
-    fine = bpy.data.meshes.new_from_object(head.evaluated_get(bpy.context.evaluated_depsgraph_get()))
-    head.modifiers.clear()
-    head.data = fine
-
-
-def skin_surface(head: bpy.types.Object, color_map: str | None, normal_map: str | None) -> None:
-    """The surface to which the glow is added: the given textures, or a plain skin color."""
-    material = bpy.data.materials.new("face")
-    if material.node_tree is None:
-        material.use_nodes = True
-    nodes, links = material.node_tree.nodes, material.node_tree.links
-    surface = nodes["Principled BSDF"]
-    surface.inputs["Base Color"].default_value = (0.50, 0.27, 0.19, 1.0)
-    surface.inputs["Roughness"].default_value = 0.5
-    if color_map:
-        picture = nodes.new("ShaderNodeTexImage")
-        picture.image = bpy.data.images.load(color_map)
-        links.new(picture.outputs["Color"], surface.inputs["Base Color"])
-    if normal_map:
-        picture = nodes.new("ShaderNodeTexImage")
-        picture.image = bpy.data.images.load(normal_map)
-        picture.image.colorspace_settings.is_data = True
-        bump = nodes.new("ShaderNodeNormalMap")
-        links.new(picture.outputs["Color"], bump.inputs["Color"])
-        links.new(bump.outputs["Normal"], surface.inputs["Normal"])
-    head.data.materials.clear()
-    head.data.materials.append(material)
 
 
 @contextmanager
@@ -264,18 +140,6 @@ def aim_camera(scene: bpy.types.Scene, target: Vector, height_m: float, azimuth:
     return camera
 
 
-def views_of(head: bpy.types.Object) -> dict[str, tuple[Vector, float]]:
-    """Camera targets as (point, visible height): the head, and the ear on its +X side."""
-    points = [v.co for v in head.data.vertices]
-    low, high = (Vector([pick(p[i] for p in points) for i in range(3)]) for pick in (min, max))
-    height = min(high.z - low.z, HEAD_HEIGHT_M)  # a scan may include the shoulders
-    upper = [p for p in points if p.z > high.z - height]
-    ear = max((p for p in upper if p.z < high.z - 0.25 * height), key=lambda p: p.x)
-    center = Vector((sum(p.x for p in upper) / len(upper), ear.y, high.z - 0.5 * height))
-    width = max(p.x for p in upper) - min(p.x for p in upper)
-    return {"": (center, 1.12 * max(height, 0.9 * width)), "_ear": (ear.copy(), 0.42 * height)}
-
-
 def remove_lights() -> None:
     for old in [o for o in bpy.data.objects if o.type == "LIGHT"]:
         bpy.data.objects.remove(old)
@@ -294,16 +158,6 @@ def add_light(scene: bpy.types.Scene, light: sg.Light) -> bpy.types.Object:
 def toward(position: Vector, target: Vector) -> tuple[float, ...]:
     """The direction of a light at a position that looks at a target."""
     return tuple((target - position).normalized())
-
-
-def light_behind_ear(scene: bpy.types.Scene, head: bpy.types.Object) -> bpy.types.Object:
-    """A warm bulb of 2 W, 15 cm behind the ear found by `views_of`; replaces all other lights."""
-    remove_lights()
-    ear, _height = views_of(head)["_ear"]
-    position = tuple(ear + Vector((0.03, 0.15, 0.0)))
-    return add_light(
-        scene, sg.Light("POINT", (1.0, 0.75, 0.5), position, power=2.0, name="behind the ear", radius=0.01)
-    )
 
 
 def add_rig(scene: bpy.types.Scene, rig: list[Any], center: Vector) -> None:

@@ -10,6 +10,7 @@ import skinglow as sg
 import skinglow_blender as sb
 
 from studies import scenes as stage
+from studies.heads import loading
 
 FRAMES = 3
 TURN_DEGREES = 30.0  # to each side
@@ -17,8 +18,8 @@ TURN_DEGREES = 30.0  # to each side
 STRENGTH = 60.0
 #: Collection, light, linear color, power in W, and position in meters relative to the center of a head facing -Y.
 LIGHTS = (
-    ("sunset", "low sun", (1.0, 0.60, 0.25), 12.0, (0.30, 0.35, 0.05)),
-    ("sunset", "sky", (0.25, 0.40, 1.0), 8.0, (-0.50, -0.60, 0.50)),
+    ("sunset", "low sun", (1.0, 0.60, 0.25), 4.3, (0.18, 0.21, 0.03)),
+    ("sunset", "sky", (0.25, 0.40, 1.0), 2.9, (-0.30, -0.36, 0.30)),
 )
 SUN_AT_THE_END = (1.0, 0.15, 0.02)
 
@@ -28,10 +29,9 @@ def main(job: dict[str, Any]) -> None:
     scene.render.resolution_x = scene.render.resolution_y = 240
     scene.cycles.samples = 32
     scene.frame_start, scene.frame_end = 1, FRAMES
-    head = stage.load_head({"mesh": "suzanne", "unit_mm": 100.0, "group": None, "eyes": (), "cut_below_m": None})
-    stage.skin_surface(head, None, None)
+    head, _placed = loading.load({"mesh": "suzanne", "unit_mm": 60.0})
     center = stage.center_of(head)
-    stage.aim_camera(scene, center, 0.29, 0.0)
+    stage.aim_camera(scene, center, 0.174, 0.0)
     for collection, name, color, power, position in LIGHTS:
         add_light(scene, collection, name, color, power, [a + b for a, b in zip(center, position, strict=True)])
     for frame in range(1, FRAMES + 1):

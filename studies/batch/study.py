@@ -6,12 +6,13 @@ Another run renders only what is missing.
 from __future__ import annotations
 
 import argparse
+import shutil
 import subprocess
 from pathlib import Path
 
 from studies import hosts
 from studies.batch import contact_sheet, in_wheel
-from studies.paths import PROJECT
+from studies.paths import IMAGES, PROJECT
 from studies.progress import Progress, StudyError
 
 
@@ -20,6 +21,7 @@ def main(arguments: list[str]) -> None:
     parser.add_argument("--out", type=Path, default=Path("out/batch"), help="output folder (default %(default)s)")
     parser.add_argument("--scene", action="store_true", help="only write scene.blend")
     parser.add_argument("--blender", metavar="PROGRAM", help="that writes the scene (default: the bpy wheel)")
+    parser.add_argument("--docs", action="store_true", help="the picture of docs/batch.md is then that of this run")
     options = parser.parse_args(arguments)
     out: Path = options.out.resolve()
     out.mkdir(parents=True, exist_ok=True)
@@ -36,4 +38,6 @@ def main(arguments: list[str]) -> None:
     if subprocess.run([*command, "--out", out / "pictures"], check=False).returncode != 0:
         raise StudyError("the batch failed: see above")
     contact_sheet.draw(out / "pictures", out / "sheet.png")
+    if options.docs:
+        shutil.copy(out / "sheet.png", IMAGES / "batch_example.png")
     progress.say(f"open {out / 'sheet.png'}; the inputs of each picture are in {out / 'pictures' / 'manifest.jsonl'}")

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from studies import hosts, timing
 from studies.demo import comparison, figures, light_rigs, page
-from studies.heads import hero, human_head
+from studies.heads import hero, sources
 from studies.progress import Progress
 
 
@@ -71,13 +71,6 @@ def point(text: str) -> tuple[float, float, float]:
     return x, y, z
 
 
-def about(mesh: str, unit_mm: float) -> dict[str, object]:
-    """What the page says of the head."""
-    known = {"person": ("MakeHuman", human_head.LICENSE), "suzanne": ("Suzanne", "Blender's monkey, CC0")}
-    name, license = known.get(mesh, (Path(mesh).stem, "license of its owner"))
-    return {"name": name, "license": license, "unit_mm": unit_mm}
-
-
 def main(arguments: list[str]) -> None:
     options = parsed(arguments)
     started = time.monotonic()
@@ -85,7 +78,7 @@ def main(arguments: list[str]) -> None:
     out.mkdir(parents=True, exist_ok=True)
     progress = Progress(out / "demo.log")
 
-    head = hero.head_job(
+    head = sources.head_job(
         options.mesh or options.named_mesh,
         progress,
         up=options.up,
@@ -104,7 +97,7 @@ def main(arguments: list[str]) -> None:
     size = 2 * options.size // 3
     job = {**first, "rigs": rigs, "size": size, "samples": max(options.samples // 4, 1), "out": str(out)}
     numbers = host.run("studies.demo.job", job, progress)
-    numbers["head"] = about(head["mesh"], first["unit_mm"])
+    numbers["head"] = {**sources.about(head["mesh"]), "unit_mm": first["unit_mm"]}
     numbers["hero"] = first
     numbers["comparison"] = comparison.render_and_compare(out, size, progress)
     progress.say("drawing the figures")

@@ -13,6 +13,7 @@ from mathutils import Vector
 
 from studies import rendering
 from studies import scenes as stage
+from studies.heads import loading
 
 CAMERA_AZIMUTH_DEGREES = 25.0
 LIGHT_AZIMUTH_DEGREES = 170.0  # behind the ear and slightly to its side, so that the skull does not occlude the light
@@ -21,7 +22,7 @@ LIGHT_COLOR = (1.0, 0.62, 0.35)  # warm
 LIGHT_POWER_W = 20.0
 # Far sides that see less of the sky are in the mouth and eye sockets: the add-on's default.
 MIN_SKY_VISIBILITY = 0.1
-# The ear is the thin skin near the outermost point of the head.
+# The ear is the thin skin near its center.
 THIN_MM, NEAR_M = 8.0, 0.05
 FACTS, FAR_SIDE = "ear_facts", "ear_far_side"
 
@@ -57,11 +58,11 @@ def build(job: dict[str, Any]) -> Ear:
     scene = stage.empty_scene()
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
     rendering.linear_render(scene, job["size"])
-    head = stage.load_head(job)
+    head, placed = loading.load_alone(job)
     points, normals, triangles = rendering.mesh_arrays(head.data)
     skin = _Skin(points, normals, triangles, np.zeros(len(points)))
     skin.thickness = skin.measured(MIN_SKY_VISIBILITY)
-    center, radius = _find_ear(skin, np.array(stage.views_of(head)["_ear"][0]))
+    center, radius = _find_ear(skin, placed.left_ear.center)
     camera = stage.aim_camera(scene, Vector(center), 2.2 * radius, math.radians(CAMERA_AZIMUTH_DEGREES))
     azimuth = math.radians(LIGHT_AZIMUTH_DEGREES)
     light_position = center + LIGHT_DISTANCE_M * np.array((math.sin(azimuth), -math.cos(azimuth), 0.0))
@@ -77,9 +78,9 @@ def build(job: dict[str, Any]) -> Ear:
     return Ear(scene, head, light, skin.measured(0.0))
 
 
-def _find_ear(skin: _Skin, outermost: np.ndarray) -> tuple[np.ndarray, float]:
-    """A bounding sphere (center and radius in meters) of the thin skin near the outermost point of the head."""
-    near = np.linalg.norm(skin.points - outermost, axis=1) < NEAR_M
+def _find_ear(skin: _Skin, about: np.ndarray) -> tuple[np.ndarray, float]:
+    """A bounding sphere (center and radius in meters) of the thin skin near that point of the ear."""
+    near = np.linalg.norm(skin.points - about, axis=1) < NEAR_M
     thin = skin.points[near & (skin.thickness < THIN_MM)]
     if not len(thin):
         raise SystemExit(f"no skin under {THIN_MM:g} mm within {NEAR_M:g} m of the head's side; is the unit right?")

@@ -8,13 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from studies import hosts, report
-from studies.demo import head_source
 from studies.ear import plots, tables
 from studies.ear.results import Study
+from studies.heads import sources
 from studies.paths import IMAGES, PROJECT, SCAN
 from studies.progress import Progress, StudyError
-
-CREDIT = "Infinite, 3D Head Scan by Lee Perry-Smith (www.triplegangers.com), CC BY 3.0"
 
 
 def parsed(arguments: list[str]) -> argparse.Namespace:
@@ -22,7 +20,7 @@ def parsed(arguments: list[str]) -> argparse.Namespace:
         prog="python -m studies ear",
         description="Compares the back-lit ear in every mode with Cycles' random walk: error and CPU time.",
     )
-    parser.add_argument("--head", metavar="FILE", help="GLB, OBJ or PLY (default: the scan, else MakeHuman's)")
+    parser.add_argument("--head", metavar="FILE", help="GLB, OBJ or PLY (default: the scan, else the demo's person)")
     parser.add_argument("--unit", type=float, metavar="MM", help="millimeters per unit of the file")
     parser.add_argument("--blender", metavar="PROGRAM", help="a Blender program or a Python with bpy")
     parser.add_argument("--size", type=int, default=160, metavar="PIXELS", help="width and height (default 160)")
@@ -36,19 +34,16 @@ def parsed(arguments: list[str]) -> argparse.Namespace:
     return options
 
 
-def find_head(options: argparse.Namespace, progress: Progress) -> head_source.Head:
-    """The given head, or the scan if it is next to the project, or MakeHuman's head."""
+def find_head(options: argparse.Namespace, progress: Progress) -> dict[str, Any]:
+    """What is loaded: the given head, or the scan if it is next to the project, or the person."""
     mesh = options.head
     if mesh is None and SCAN.is_file():
         mesh = str(SCAN)
     elif mesh is None:
         progress.say(
-            f"no scan at {SCAN}: using MakeHuman's head; the figures in the docs are of the scan (--head FILE)"
+            f"no scan at {SCAN}: using the demo's person; the figures in the docs are of the scan (--head FILE)"
         )
-    head = head_source.find(mesh, options.unit, progress)
-    if mesh is not None and Path(mesh).name == SCAN.name:
-        head.license = CREDIT
-    return head
+    return sources.head_job(mesh, progress, unit_mm=options.unit)
 
 
 def main(arguments: list[str]) -> None:
@@ -70,7 +65,7 @@ def render(options: argparse.Namespace, out: Path, progress: Progress) -> dict[s
     head = find_head(options, progress)
     host = hosts.Host.find(options.blender)
     job = {
-        **head.job(),
+        **head,
         "size": options.size,
         "samples": options.samples,
         "slab_samples": 256,
@@ -79,7 +74,8 @@ def render(options: argparse.Namespace, out: Path, progress: Progress) -> dict[s
         "out": str(out),
     }
     numbers = host.run("studies.ear.job", job, progress)
-    numbers["head"] = f"{head.name} ({head.license})"
+    head = sources.about(head["mesh"])
+    numbers["head"] = f"{head['name']} ({head['license']})"
     numbers["samples"] = options.samples
     return numbers
 

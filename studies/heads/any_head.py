@@ -31,6 +31,14 @@ class Placed:
     samples: Samples  # meters, Z up, facing -Y
     said: list[str] = field(default_factory=list)  # sentences for the terminal
 
+    @property
+    def left_ear(self) -> Ear:
+        """The one at +X; HeadError if it was not found."""
+        for ear in self.ears:
+            if ear.side > 0.0:
+                return ear
+        raise HeadError("the left ear was not found; give a head with both ears uncovered")
+
     def matrix(self) -> Array:
         """(3, 3), of points of the file."""
         return self.unit_mm / 1000.0 * self.orientation.rotation()

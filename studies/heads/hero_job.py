@@ -68,9 +68,7 @@ def say(sentence: str) -> None:
 def make_skin(head: bpy.types.Object) -> None:
     """As a user does who presses Make Skin Glow; of the person, without the mouth, the sockets and the cut."""
     sb.register()
-    if portrait.MASK_GROUP in head.vertex_groups:
-        settings = head.data.materials[0].skinglow
-        settings.mask, settings.mask_group = "VERTEX_GROUP", portrait.MASK_GROUP
+    portrait.mask_glow(head)
     sb.make_skin(
         head, slots=loading.skin_slots(head), mode="physical", weights="shape", cell_mm=CELL_MM, unit_mm=1000.0
     )

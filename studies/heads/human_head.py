@@ -47,6 +47,8 @@ LASHES = ("helper-l-eyelashes-1", "helper-l-eyelashes-2", "helper-r-eyelashes-1"
 UNIT_M = 0.1  # of the file: decimeters, Y up, facing +Z
 #: What is kept of the body, in the file's units: above the breast, and where the arms begin.
 CUT_BELOW, CUT_BESIDE = 4.7, 2.1
+#: Where the neck meets the shoulders.
+CUT_NECK = 6.05
 #: The mouth's inside is an island of its own in the UV map.
 MOUTH_U, MOUTH_V = 0.74, 0.16
 
@@ -99,8 +101,8 @@ def fetch(folder: Path, say: Say) -> Path:
     return folder
 
 
-def read(folder: Path, recipe: dict[str, float] = RECIPE) -> HumanHead:
-    """The head from the unpacked files."""
+def read(folder: Path, recipe: dict[str, float] = RECIPE, cut_below: float = CUT_BELOW) -> HumanHead:
+    """The head from the unpacked files; without a recipe it is MakeHuman's base mesh."""
     neutral, uv, groups = _read_base(folder / BASE)
     shaped = neutral.copy()
     for name, weight in recipe.items():
@@ -115,7 +117,7 @@ def read(folder: Path, recipe: dict[str, float] = RECIPE) -> HumanHead:
         faces = faces.reshape(-1, 4)
         return Part(name, _upright(shaped[used]), faces, uv[corners[:, :, 1]], _upright(neutral[used]))
 
-    body = part("body", lambda center: (center[:, 1] > CUT_BELOW) & (np.abs(center[:, 0]) < CUT_BESIDE))
+    body = part("body", lambda center: (center[:, 1] > cut_below) & (np.abs(center[:, 0]) < CUT_BESIDE))
     eyes = [part(name) for name in EYES]
     inside = ((body.uv[:, :, 0] > MOUTH_U) & (body.uv[:, :, 1] < MOUTH_V)).all(axis=1)
     for eye in eyes:

@@ -26,17 +26,23 @@ AS_IT_IS = np.eye(3)
 def load(job: dict[str, Any]) -> tuple[bpy.types.Object, Placed]:
     """The head of a job, with materials, of which the first slot alone is skin, and where its ears are.
 
-    job: "mesh" ("person", "suzanne" or a path), "folder" of the person's shapes, and, None or given, "up", "facing",
-    "unit_mm", "ear", "color_map", "normal_map".
+    job: of sources.head_job: "mesh" ("person", "makehuman", "suzanne" or a path), "folder" of the shapes of the first
+    two, and, None or given, "up", "facing", "unit_mm", "ear", "color_map", "normal_map".
     Raises HeadError in words.
     """
     options = {key: job.get(key) for key in ("up", "facing", "unit_mm", "ear")}
     if job["mesh"] == "person":
         head = portrait.build(human_head.read(Path(job["folder"])))
         return head, _placed(head, "the person", AS_IT_IS, {"up": "+Z", "facing": "-Y", "unit_mm": 1000.0})
-    if job["mesh"] == "suzanne":
-        bpy.ops.mesh.primitive_monkey_add()
-        head, name, axes = bpy.context.object, "Suzanne", AS_IT_IS
+    if job["mesh"] in ("makehuman", "suzanne"):
+        if job["mesh"] == "suzanne":
+            bpy.ops.mesh.primitive_monkey_add()
+            head = bpy.context.object
+        else:
+            base = human_head.read(Path(job["folder"]), recipe={}, cut_below=human_head.CUT_NECK)
+            head = portrait.object_of(base.body)
+            options["unit_mm"] = options["unit_mm"] or 1000.0
+        name, axes = job["mesh"].capitalize(), AS_IT_IS
         options["up"], options["facing"] = options["up"] or "+Z", options["facing"] or "-Y"
     else:
         head, name, axes = _import(Path(job["mesh"])), Path(job["mesh"]).name, _axes(Path(job["mesh"]))
@@ -54,6 +60,14 @@ def load(job: dict[str, Any]) -> tuple[bpy.types.Object, Placed]:
         head.data.materials.clear()
         head.data.materials.append(person_materials.plain(job.get("color_map"), job.get("normal_map")))
         head.data.polygons.foreach_set("material_index", np.zeros(len(head.data.polygons), np.int32))
+    return head, placed
+
+
+def load_alone(job: dict[str, Any]) -> tuple[bpy.types.Object, Placed]:
+    """The head of a job as skin alone, without eyes and hair."""
+    head, placed = load(job)
+    for thing in [each for each in bpy.data.objects if each.type == "MESH" and each != head]:
+        bpy.data.objects.remove(thing)
     return head, placed
 
 

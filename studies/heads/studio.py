@@ -98,33 +98,39 @@ def lights(scene: bpy.types.Scene, ear: Ear) -> bpy.types.Object:
 
 
 def bulb(scene: bpy.types.Scene, ear: Ear, power: float = BULB_W) -> bpy.types.Object:
-    position = tuple(_from_ear(ear, BULB))
+    position = tuple(from_ear(ear, BULB))
     return stage.add_light(scene, sg.Light("POINT", WARM, position, power=power, name="bulb", radius=BULB_RADIUS_M))
 
 
 def _panel(scene: bpy.types.Scene, name: str, ear: Ear, off: Color, power: float, color: Color) -> None:
     """A square that shines on the ear."""
-    position = _from_ear(ear, off)
+    position = from_ear(ear, off)
     direction = stage.toward(position, Vector(ear.center))
     size = {"area_shape": "SQUARE", "size_x": PANEL_M, "size_y": PANEL_M}
     stage.add_light(scene, sg.Light("AREA", color, tuple(position), direction, power=power, name=name, **size))
 
 
-def _from_ear(ear: Ear, off: Color) -> Vector:
+def from_ear(ear: Ear, off: Color) -> Vector:
+    """A point off the ear: x out of the head, y to the back, z up, meters."""
     return Vector(ear.center) + Vector((ear.side * off[0], off[1], off[2]))
+
+
+def outward(ear: Ear, azimuth: float, height: float = 0.06) -> Vector:
+    """To where it is seen from: `azimuth` degrees off the front to the ear's side, a little from above."""
+    angle = math.radians(azimuth)
+    return Vector((ear.side * math.sin(angle), -math.cos(angle), height)).normalized()
 
 
 def camera(
     scene: bpy.types.Scene, ear: Ear, off: Color, width_m: float, azimuth: float, height: float = 0.06
 ) -> bpy.types.Object:
     """A portrait lens on a point off the ear that sees `width_m`, `azimuth` degrees off the front to the ear's side."""
-    angle = math.radians(azimuth)
-    outward = Vector((ear.side * math.sin(angle), -math.cos(angle), height)).normalized()
+    toward = outward(ear, azimuth, height)
     made = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
     made.data.lens, made.data.sensor_width = 85.0, 36.0
-    target, distance = _from_ear(ear, off), width_m * 85.0 / 36.0
-    made.location = target + distance * outward
-    made.rotation_euler = (-outward).to_track_quat("-Z", "Y").to_euler()
+    target, distance = from_ear(ear, off), width_m * 85.0 / 36.0
+    made.location = target + distance * toward
+    made.rotation_euler = (-toward).to_track_quat("-Z", "Y").to_euler()
     made.data.clip_start, made.data.clip_end = 0.02 * distance, 20.0 * distance
     scene.collection.objects.link(made)
     return made

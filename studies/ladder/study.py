@@ -15,7 +15,7 @@ import numpy as np
 import skinglow as sg
 
 from studies import hosts, monte_carlo, report
-from studies.heads import hero
+from studies.heads import sources
 from studies.ladder import figures, tables
 from studies.ladder.cells import Cells
 from studies.ladder.results import RUNGS, WALKS, Results
@@ -58,7 +58,7 @@ def found_heads(scan: str, progress: Progress) -> dict[str, dict[str, Any]]:
     if heads["scan"][0] == "":
         progress.say(f"no scan at {scan}: without it (--scan FILE)")
         del heads["scan"]
-    return {name: hero.head_job(mesh, progress, **given) for name, (mesh, given) in heads.items()}
+    return {name: sources.head_job(mesh, progress, **given) for name, (mesh, given) in heads.items()}
 
 
 class Climb:

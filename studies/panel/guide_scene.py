@@ -1,32 +1,34 @@
-"""The scene of the guide's pictures: the demo's head at real size, a warm bulb behind one ear."""
+"""Runs inside Blender: the scene of the guide's pictures, the demo's person and its lights, not a skin yet."""
+
+from __future__ import annotations
+
+from typing import Any
 
 import bpy
 
-from studies.scenes import aim_camera, light_behind_ear, load_head, skin_surface, views_of
-
-#: As studies/demo/head_source.py says of MakeHuman's base mesh.
-JOB = {"unit_mm": 100.0, "group": "body", "eyes": ("helper-l-eye", "helper-r-eye"), "cut_below_m": 0.605}
+from studies.heads import loading, portrait, studio
+from studies.heads.ears import Ear
 
 
-def build_guide_scene(mesh: str) -> bpy.types.Object:
-    """Replaces the objects of the file; returns the head, selected, not a skin yet."""
-    for obj in list(bpy.data.objects):
-        bpy.data.objects.remove(obj)
-    head = load_head({"mesh": mesh, **JOB})
+def build_guide_scene(job: dict[str, Any]) -> Ear:
+    """Replaces the objects of the file; the head is selected, and the camera sees the ear that is returned up close.
+
+    job  of sources.head_job. The add-on is registered.
+    """
+    for thing in list(bpy.data.objects):
+        bpy.data.objects.remove(thing)
+    head, placed = loading.load(job)
     head.name = "Head"
-    skin_surface(head, None, None)
+    portrait.mask_glow(head)
     scene = bpy.context.scene
-    scene.view_settings.view_transform = "Standard"
-    scene.view_settings.exposure = 2.0
-    scene.render.engine = "CYCLES"
-    scene.cycles.use_denoising = scene.cycles.use_preview_denoising = False
+    studio.settings(scene, 640, 640, 64)
     scene.cycles.preview_samples = 32
-    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.010, 0.011, 0.013, 1.0)
-    light_behind_ear(scene, head).name = "Behind the ear"
-    ear, height = views_of(head)["_ear"]
-    aim_camera(scene, ear, height, 0.9)
-    scene.render.resolution_x, scene.render.resolution_y, scene.cycles.samples = 640, 640, 128
-    for obj in bpy.data.objects:
-        obj.select_set(obj == head)
+    scene.cycles.use_preview_denoising = studio.can_denoise()
+    studio.world(scene)
+    ear = studio.ear_of(placed)
+    studio.lights(scene, ear).name = "Behind the ear"
+    scene.camera = studio.hero_camera(scene, ear)
+    for thing in bpy.data.objects:
+        thing.select_set(thing == head)
     bpy.context.view_layer.objects.active = head
-    return head
+    return ear

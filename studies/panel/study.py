@@ -1,44 +1,63 @@
-"""Takes the first pictures of docs/blender.md: a full Blender in a virtual display, a click on the panel's button.
+"""Takes the pictures of docs/blender.md that show a window: a full Blender in a virtual display, a click on the panel's
+button. Of a Blender before 4.2 the panel alone is kept, as panel_3_4.png.
 
-Needs a full Blender, Xvfb, the core as a folder, made by scripts/build, and the demo's head, which is downloaded; from
-Blender 4.2 on also scrot.
+Needs a full Blender, Xvfb, the core as a folder, made by scripts/build, and the demo's person, which is downloaded;
+from Blender 4.2 on also scrot.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import shlex
+import shutil
 import subprocess
 import tempfile
 from pathlib import Path
 
-from studies.demo.head_source import find
 from studies.display import virtual_display
+from studies.heads import sources
+from studies.hosts import Host
 from studies.paths import IMAGES, PROJECT, SITE
 from studies.progress import Progress, StudyError
 
 SCREEN = (1440, 900)
-#: The scene before the click, the panel after it, and the ear up close.
-PICTURES = ("guide_select.png", "panel.png", "guide_ear.png")
+#: By subject of window.py: the scene before the click, the panel after it, the ear up close; and thickness.
+PICTURES = {"guide": ("guide_select.png", "panel.png", "guide_ear.png"), "thickness": ("thickness.png",)}
+#: Of an older Blender.
+OLDER = {"panel.png": "panel_3_4.png"}
 
 
 def main(arguments: list[str]) -> None:
     parser = argparse.ArgumentParser(prog="python -m studies panel", description=__doc__)
-    options = 'with its options: "blender --gpu-backend opengl" where there is no GPU'
-    parser.add_argument("blender", nargs="?", default="blender", help=options)
+    about = 'with its options: "blender --gpu-backend opengl" where there is no GPU'
+    parser.add_argument("blender", nargs="?", default="blender", help=about)
     parser.add_argument("folder", nargs="?", type=Path, default=IMAGES, help="(default %(default)s)")
     options = parser.parse_args(arguments)
-    head = find(None, None, Progress(PROJECT / "build" / "panel.log"))
-    pictures = [options.folder.resolve() / name for name in PICTURES]
+    blender = shlex.split(options.blender)
+    kept = {name: name for names in PICTURES.values() for name in names}
+    if tuple(map(int, Host.find(blender[0]).version.split(".")[:2])) < (4, 2):
+        kept = OLDER
+    head = sources.head_job(None, Progress(PROJECT / "build" / "panel.log"))
+    with tempfile.TemporaryDirectory() as taken:
+        for subject, names in PICTURES.items():
+            if not set(names) & set(kept):
+                continue
+            take(blender, [subject, json.dumps(head), str(SITE), *(str(Path(taken, name)) for name in names)])
+        for name, target in kept.items():
+            print(shutil.copy(Path(taken, name), options.folder.resolve() / target))
+
+
+def take(blender: list[str], arguments: list[str]) -> None:
+    """Runs window.py in a window of its own; raises StudyError where the pictures were not taken."""
     with tempfile.TemporaryDirectory() as profile, virtual_display(*SCREEN) as display:
-        command = [*shlex.split(options.blender), "--factory-startup"]
+        command = [*blender, "--factory-startup"]
         command += ["--enable-event-simulate", "--window-geometry", "0", "0", *map(str, SCREEN)]
-        command += ["-P", Path(__file__).with_name("window.py"), "--", head.mesh, SITE, *pictures]
+        command += ["-P", str(Path(__file__).with_name("window.py")), "--", *arguments]
         environment = {**os.environ, "BLENDER_USER_RESOURCES": profile, "DISPLAY": display}
         done = subprocess.run(
             command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, check=False
         )
     if "STEPS DONE" not in done.stdout or "Traceback" in done.stdout:
         raise StudyError(f"the pictures were not taken:\n{done.stdout}")
-    print(*pictures, sep="\n")

@@ -12,6 +12,7 @@ from mathutils import Vector
 
 from studies import rendering
 from studies import scenes as stage
+from studies.heads import loading
 from studies.in_blender import Steps
 from studies.medium import SKIN1
 
@@ -29,7 +30,7 @@ def main(job: dict[str, Any]) -> dict[str, Any]:
     scene = stage.empty_scene()
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
     rendering.linear_render(scene, job["size"])
-    head = stage.load_head(job)
+    head, _placed = loading.load_alone(job)
     stage.add_light(scene, sg.Light(**job["light"]))
     for name, values in attributes.items():
         if len(values) != len(head.data.vertices):

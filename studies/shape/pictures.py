@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from studies import hosts
-from studies.demo.head_source import Head
 from studies.errors import Reference
 from studies.figures import plt, save, to_screen
 from studies.progress import Progress
@@ -44,7 +43,7 @@ class Pictures:
 class Stage:
     """What is rendered where. Pictures are kept in the folder `out` under `name`."""
 
-    source: Head
+    source: dict[str, Any]
     head: HeadMesh
     light: str
     out: Path
@@ -57,7 +56,7 @@ class Stage:
         light = self.head.light(self.light)
         radius_mm = float(np.linalg.norm(self.head.vertices[self.head.ear] - self.head.ear_center, axis=1).max())
         return {
-            **self.source.job(),
+            **self.source,
             "size": self.size,
             "out": str(self.out),
             "center": list(self.head.ear_center / 1000.0),

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 from studies import hosts, monte_carlo, report
-from studies.demo import head_source
+from studies.heads import sources
 from studies.paths import IMAGES, PROJECT, SCAN
 from studies.progress import Progress
 from studies.shape import pictures, tables
@@ -39,17 +40,16 @@ class Heads:
     """The scan, if it is there, and MakeHuman's head, as Blender renders them."""
 
     def __init__(self, scan: str, out: Path, host: hosts.Host, progress: Progress) -> None:
-        self.sources: dict[str, head_source.Head] = {}
+        self.jobs: dict[str, dict[str, Any]] = {}
         self.meshes: dict[str, HeadMesh] = {}
-        for name, file in (("scan", scan), ("makehuman", None)):
-            if file is not None and not Path(file).is_file():
+        for name, file in (("scan", scan), ("makehuman", sources.MAKEHUMAN)):
+            if name == "scan" and not Path(file).is_file():
                 progress.say(f"no scan at {file}: MakeHuman's head alone (--scan FILE)")
                 continue
-            self.sources[name] = head_source.find(file, None, progress)
+            self.jobs[name] = sources.head_job(file, progress)
             path = out / f"{name}.npz"
             if not path.is_file():
-                job = {**self.sources[name].job(), "mesh_file": str(path)}
-                host.run("studies.shape.head_job", job, progress)
+                host.run("studies.heads.mesh_job", {**self.jobs[name], "mesh_file": str(path)}, progress)
             self.meshes[name] = HeadMesh(path)
 
 
@@ -89,7 +89,7 @@ def main(arguments: list[str]) -> None:
             "monte_carlo_a": one.a,
             "monte_carlo_b": one.b,
         }
-        where = pictures.Stage(heads.sources[head], one.head, one.case.light, out, head, options.size, host, progress)
+        where = pictures.Stage(heads.jobs[head], one.head, one.case.light, out, head, options.size, host, progress)
         found = where.pictures(attributes, one.head.back_lit(one.irradiance), options.samples)
         pictures.figure(images / f"shape_{head}.png", found, METHODS)
         views[head] = pictures.view_dependence(found)

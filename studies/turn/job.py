@@ -45,10 +45,8 @@ def main(job: dict[str, Any]) -> dict[str, Any]:
     scene = stage.empty_scene()
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
     rendering.linear_render(scene, job["size"])
-    head, placed = loading.load(job)
-    for hair in [each for each in bpy.data.objects if each.type == "MESH" and each != head]:
-        bpy.data.objects.remove(hair)
-    ear = Vector(next(each.center for each in placed.ears if each.side > 0.0))
+    head, placed = loading.load_alone(job)
+    ear = Vector(placed.left_ear.center)
     stage.aim_camera(scene, ear + Vector((-0.004, 0.008, -0.004)), VISIBLE_M, CAMERA_AZIMUTH)
     light = stage.add_light(scene, sg.Light("POINT", COLOR, tuple(ear), power=POWER_W, radius=RADIUS_M))
     samples = job["samples"]

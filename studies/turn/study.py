@@ -13,7 +13,7 @@ import numpy as np
 
 from studies import hosts
 from studies.figures import plt, save, to_screen
-from studies.heads import hero
+from studies.heads import sources
 from studies.paths import IMAGES, PROJECT
 from studies.progress import Progress
 from studies.turn.film import AZIMUTHS, save_film
@@ -39,7 +39,7 @@ def render(
     """Pictures (frames, height, width, 4) linear, CPU seconds of each frame, and what the job told."""
     pictures = options.out / f"{kind}.npz"
     job = {
-        **hero.head_job(None, progress),
+        **sources.head_job(None, progress),
         "kind": kind,
         "azimuths": AZIMUTHS,
         "size": options.size,
@@ -72,7 +72,10 @@ def main(arguments: list[str]) -> None:
             ax.set(xticks=[], yticks=[], xlabel=f"{cpu:.1f} s")
         line[0].set_ylabel(labels[kind], fontsize=9)
     save(sheet, options.picture, dpi=100)
-    film = options.picture.with_name(options.picture.stem + "_film.jpg")
-    save_film(film, [frames for frames, _seconds, _told in rows.values()], exposure)
+    save_film(
+        options.picture.with_name("round_the_ear_film.jpg"),
+        [frames for frames, _seconds, _told in rows.values()],
+        exposure,
+    )
     print({kind: told for kind, (_frames, _seconds, told) in rows.items()})
     print(options.picture)

@@ -10,6 +10,7 @@ import pytest
 import trimesh
 from hosts import host_named
 
+from studies.heads import human_head
 from studies.heads.orientation import Orientation
 from tests.python.made_head import head
 
@@ -80,3 +81,34 @@ def test_a_head_that_cannot_be_used_is_told_in_words(found):
 )
 def test_a_file_without_a_head_is_told_in_words(found, name, words):
     assert found[0][name]["error"].startswith(name) and words in found[0][name]["error"]
+
+
+def test_sockets_mouth_and_nostrils_of_the_person_do_not_glow(tmp_path):
+    """Flesh is thin there too; the dot at a nostril in dark portraits was one of these."""
+    shapes = human_head.fetch(human_head.SHAPES, print)
+    results, pictures = tmp_path / "results.json", tmp_path / "pictures.npz"
+    host = host_named("4.5")
+    host.require()
+    script = Path(__file__).with_name("person_inside.py")
+    done = subprocess.run(
+        host.command(script, [str(results), str(shapes), str(pictures)]),
+        env=host.environment(tmp_path),
+        capture_output=True,
+        text=True,
+        timeout=600,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-4000:]
+    pixels = json.loads(results.read_text())
+    left, right = sorted((pixels["helper-l-eye"], pixels["helper-r-eye"]))
+    apart = right[0] - left[0]
+    # From brows to chin, as wide as both eyes.
+    rows = slice(int(left[1] - 0.4 * apart), int(left[1] + 2.0 * apart))
+    columns = slice(int(left[0] - 0.6 * apart), int(right[0] + 0.4 * apart))
+    column, row = (int(value) for value in pixels["ear"])
+    with np.load(pictures) as glow:
+        ear = glow["masked"][row - 25 : row + 25, column - 15 : column + 15].max()
+        assert ear > 0.5
+        # Without the mask there is light in the face, so that this sees what it is about.
+        assert glow["everywhere"][rows, columns].max() > 0.5 * ear
+        assert glow["masked"][rows, columns].max() < 1e-3 * ear

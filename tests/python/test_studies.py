@@ -13,6 +13,7 @@ from studies import __main__ as command
 from studies.demo import page
 from studies.errors import Reference
 from studies.ladder.cells import Cells
+from studies.paths import IMAGES
 from studies.progress import StudyError
 from studies.report import fill
 
@@ -22,6 +23,24 @@ ROOT = Path(__file__).parents[2]
 @pytest.mark.parametrize("name", command.STUDIES)
 def test_each_study_can_be_run(name):
     assert callable(importlib.import_module(f"studies.{name}.study").main)
+
+
+def pictures_named_in(study: str) -> list[str]:
+    """Patterns of the file names in a study's sources; what is filled in is any word."""
+    text = "".join(path.read_text() for path in sorted((ROOT / "studies" / study).glob("*.py")))
+    names = re.findall(r'"([\w{}.]+\.(?:png|jpg|svg))"', text)
+    # A name that begins with what is filled in says nothing.
+    return [re.sub(r"\\{.*?\\}", r"\\w+", re.escape(name)) for name in names if not name.startswith("{")]
+
+
+def test_every_picture_of_the_docs_is_made_by_a_study_and_shown_on_a_page():
+    made = [(name, study) for study, about in command.STUDIES.items() for name in about.pictures]
+    assert sorted(name for name, _study in made) == sorted(path.name for path in IMAGES.iterdir())
+    pages = [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]
+    shown = {name for path in pages for name in re.findall(r"images/([\w.]+)", path.read_text())} | set(page.COMMITTED)
+    for name, study in made:
+        assert name in shown, f"no page shows {name}"
+        assert any(re.fullmatch(pattern, name) for pattern in pictures_named_in(study)), f"{study} does not name {name}"
 
 
 def test_a_name_that_no_study_has_is_told_with_those_there_are():
