@@ -123,8 +123,8 @@ def _sections(out: Path, numbers: dict[str, Any]) -> list[str]:
         _section(
             "povray",
             "POV-Ray's macros are the same equations in another language, without a line in common. Transmitted light "
-            f"only, compared as linear floats: RMS {compared['rms']:.1e}, at most {compared['max']:.1e}; {within} the "
-            f"1/255 = {compared['allowed_rms']:.1e} that is allowed.",
+            f"only, compared as linear floats: RMS {compared['rms']:.1e}, {within} the 1/255 = "
+            f"{compared['allowed_rms']:.1e} that is allowed; at one pixel at most {compared['max']:.1e}.",
             _picture("blender_and_povray.png", "Blender, POV-Ray, and their difference", f"{blender}, and POV-Ray 3.7"),
         ),
         _section(

@@ -1,5 +1,5 @@
 """Takes the pictures of docs/blender.md that show a window: a full Blender in a virtual display, a click on the panel's
-button. Of a Blender before 4.2 the panel alone is kept, as panel_3_4.png.
+button. Into the docs a Blender before 4.2 gives the panel alone, as panel_3_4.png.
 
 Needs a full Blender, Xvfb, the core as a folder, made by scripts/build, and the demo's person, which is downloaded;
 from Blender 4.2 on also scrot.
@@ -37,7 +37,8 @@ def main(arguments: list[str]) -> None:
     options = parser.parse_args(arguments)
     blender = shlex.split(options.blender)
     kept = {name: name for names in PICTURES.values() for name in names}
-    if tuple(map(int, Host.find(blender[0]).version.split(".")[:2])) < (4, 2):
+    is_older = tuple(map(int, Host.find(blender[0]).version.split(".")[:2])) < (4, 2)
+    if is_older and options.folder == IMAGES:
         kept = OLDER
     head = sources.head_job(None, Progress(PROJECT / "build" / "panel.log"))
     with tempfile.TemporaryDirectory() as taken:

@@ -2,6 +2,7 @@
 
 import importlib
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -111,3 +112,20 @@ def test_the_page_of_the_demo_shows_only_what_is_in_its_folder(tmp_path):
     # What a run draws itself: by demo/figures.py, but for the first picture.
     drawn = (ROOT / "studies" / "demo" / "figures.py").read_text()
     assert all(f'"{name}"' in drawn for name in shown if "/" not in name and name != "physical_surface_ear.png")
+
+
+def test_what_the_demo_tells_to_have_spent_is_without_the_build(tmp_path):
+    """A process that replaces the shell inherits what the shell's children spent."""
+    project = tmp_path / "project"
+    (project / "build" / "envs" / "tools" / "bin").mkdir(parents=True)
+    shutil.copytree(ROOT / "scripts", project / "scripts")
+    for name in ("setup", "build"):
+        (project / "scripts" / name).write_text("for ((i = 0; i < 300000; i++)); do :; done\n")
+    python = project / "build" / "envs" / "tools" / "bin" / "python"
+    told = f"import sys; sys.path[:0] = [{str(ROOT)!r}]; from studies import timing; print(timing.spent())"
+    python.write_text(
+        f"#!/usr/bin/env bash\nexec {sys.executable} -c '{told}'\n".replace("'" + str(ROOT) + "'", f'"{ROOT}"')
+    )
+    python.chmod(0o755)
+    done = subprocess.run(["bash", project / "scripts" / "demo"], capture_output=True, text=True, cwd=tmp_path)
+    assert done.stdout.startswith("0 s of processor time"), done
