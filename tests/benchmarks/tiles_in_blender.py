@@ -4,7 +4,7 @@ Run in a Blender whose Python finds skinglow:
 
     python tests/benchmarks/tiles_in_blender.py [SEGMENTS [ENGINE]]     # a bpy wheel; default 200: 20,000 vertices
 
-    frame    CPU time of a frame, 128 x 128 at 64 samples, the smallest of five, s, in turns; in Cycles on one thread.
+    frame    CPU time of a frame, 48 x 48 at 64 samples, the smallest of 14, s, in turns; in Cycles on one thread.
              The surface below the light of the skin is black and gets no light, so that Cycles has nothing to do but
              to find the point of the skin and run the nodes; or diffuse, in one light, the least that lit skin can be;
              or a Principled BSDF that four lights shine on. "four reads" is the least that tiles can be: four texels
@@ -32,7 +32,7 @@ from skinglow_blender.show.tile_image import TILES, place_tiles, show_tiles, til
 from skinglow_blender.table.lut_layout import Layout  # noqa: E402
 from skinglow_blender.thickness.tile_attribute import TEXEL_ATTRIBUTE, ensure_tiles, rows_of  # noqa: E402
 
-ROUNDS = 5
+ROUNDS = 14
 #: What is below the light of the skin, and how many lights there are.
 SURFACES = {"black surface": ("ShaderNodeEmission", 4), "diffuse, 1 light": ("ShaderNodeBsdfDiffuse", 1)}
 SURFACES["Principled, 4 lights"] = ("ShaderNodeBsdfPrincipled", 4)
@@ -65,7 +65,7 @@ def scene(segments: int, lights: int = 4, engine: str = "CYCLES") -> bpy.types.O
     bpy.context.scene.eevee.taa_render_samples = 64
     cycles.samples, cycles.use_denoising, cycles.use_adaptive_sampling = 64, False, False
     cycles.filter_width = 0.01
-    render.resolution_x = render.resolution_y = 128
+    render.resolution_x = render.resolution_y = 48
     render.threads_mode, render.threads = "FIXED", 1
     return ball
 
@@ -198,7 +198,7 @@ def main() -> None:
     for surface, (kind, lights) in SURFACES.items():
         best = frames(segments, kind, lights, engine)
         for name, seconds in best.items():
-            print(f"RESULT frame {surface:20}  {name:20} {seconds:6.2f} s ({seconds / best['emission']:4.2f}x)")
+            print(f"RESULT frame {surface:20}  {name:20} {seconds:6.3f} s ({seconds / best['emission']:4.2f}x)")
             sys.stdout.flush()
     writes(segments)
 

@@ -42,9 +42,9 @@ def add_tiles(build: NodeBuilder) -> Tiles:
         at = corner if step is None else build.vector("MULTIPLY_ADD", size, step, corner)
         build.set(node.inputs["Texel"], at)
         colors.append(node.outputs["Color"])
-    x, y, _z = build.split(build.vector("FRACTION", texel))
+    x, y, tile = build.split(texel)
+    x, y = (build.math("FRACT", each) for each in (x, y))
     lower, upper = (build.mix(a, b, x) for a, b in (colors[:2], colors[2:]))
-    tile = build.split(texel)[2]
     nearest = build.math("MAXIMUM", build.math("ROUND", tile), 1.0)
     there = build.math("COMPARE", tile, nearest, MAX_ROUNDING, label="Within one tile")
     return Tiles(build.mix(lower, upper, y), there, first["Alpha"])

@@ -78,7 +78,7 @@ def check_occlusion_and_world(_work):
     assert error < 1e-3 * mean and mean < 0.8 * free, (error, mean, free)
     wall.location.x += 100.0
     sb.update(depsgraph())
-    assert_through_turned(obj)
+    away = assert_through(obj)
     world = bpy.data.worlds.new("World")
     world.color = (0.3, 0.1, 0.05)
     if world.node_tree is not None:
@@ -87,7 +87,8 @@ def check_occlusion_and_world(_work):
     sb.update(depsgraph())
     environment = sg.Environment((0.3, 0.1, 0.05))
     obj.rotation_euler.z = 0.0
-    assert_through(obj, 1e-2, environment=environment)
+    lit = assert_through(obj, environment=environment)
+    return {"wall": error / mean, "away": away, "world": lit}
 
 
 def check_lights_without_shadows(_work):
