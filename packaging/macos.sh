@@ -4,7 +4,7 @@ if [ "$target" = macos-arm64 ]; then
     target_pythons=(3.11 3.13)
     export SKINGLOW_ARCH=arm64
     # One instruction set, or Embree refuses to be static.
-    embree_more=(-DEMBREE_ISA_SSE42=OFF -DEMBREE_ISA_NEON=ON -DEMBREE_ISA_NEON2X=OFF)
+    embree_more=(-DEMBREE_ISA_SSE42=OFF -DEMBREE_ISA_AVX2=OFF -DEMBREE_ISA_NEON=ON -DEMBREE_ISA_NEON2X=OFF)
 else
     target_pythons=(3.11)
     export SKINGLOW_ARCH=x86_64

@@ -23,6 +23,16 @@ third_party() {
         "highway=$highway_version=$highway_sha256" || fail "the licenses or the bill of materials could not be gathered"
 }
 
+# build_digest SETTING...: of all that a build folder keeps from its first configuration or that its linker reads unbeknown to ninja: the
+# libraries, the toolchain and the recipes, the compiler, and what CMake is told. Another digest asks for another folder.
+build_digest() {
+    {
+        cat "$built"/{embree,highway}/digest "$toolchain" "$steps"/{portable_modules,*Config}.cmake "$steps/exported_symbols.map" \
+            "$steps"/{portable_tools,wheels}.sh "$steps/${target%%-*}.sh" "$project"/{pyproject.toml,packaging/pins/package.txt}
+        printf '%s\n' "$@"
+    } | sha256sum
+}
+
 # What wheels are made of; they are made again when it changes.
 wheel_digest() {
     {
@@ -44,23 +54,18 @@ build_wheel() {
     third_party wheel "$target" "$built/wheel_parts" "$python"
     rm -rf "$work" "$packages"/skinglow-*-"$tag-$tag"-$wheel_platform.whl
     mkdir -p "$work"
-    # One build folder for all versions: the core does not depend on Python and is compiled once. What the compiler is
-    # told is kept in it from the first time on.
-    local told setting
-    told=$(cat "$built"/{embree,highway}/digest "$toolchain" "$steps"/{portable_modules,*Config}.cmake | sha256sum)
+    local setting told settings=(build-dir="$built/skinglow_build" install.components=python) core_settings=(SKINGLOW_RAYS=ON
+        SKINGLOW_PARTS="$built/wheel_parts" CMAKE_TOOLCHAIN_FILE="$toolchain"
+        CMAKE_PROJECT_skinglow_INCLUDE="$steps/portable_modules.cmake" CMAKE_INTERPROCEDURAL_OPTIMIZATION=OFF
+        glm_DIR="$portable/headers/glm" nlohmann_json_DIR="$portable/headers/nlohmann_json" FastFloat_DIR="$portable/headers/fast_float"
+        embree_DIR="$built/embree/lib/cmake/embree-$embree_version" hwy_DIR="$built/highway/lib/cmake/hwy")
+    target_settings "$1"
+    for setting in "${core_settings[@]}" "${more_settings[@]}"; do settings+=("cmake.define.$setting"); done
+    # One build folder for all versions: the core does not depend on Python and is compiled once.
+    told=$(build_digest "${core_settings[@]}")
     [ "$(cat "$built/skinglow_build/told" 2>/dev/null)" = "$told" ] || rm -rf "$built/skinglow_build"
     mkdir -p "$built/skinglow_build"
     printf '%s' "$told" >"$built/skinglow_build/told"
-    local settings=(build-dir="$built/skinglow_build" install.components=python)
-    target_settings "$1"
-    for setting in SKINGLOW_RAYS=ON SKINGLOW_PARTS="$built/wheel_parts" \
-        CMAKE_TOOLCHAIN_FILE="$toolchain" CMAKE_PROJECT_skinglow_INCLUDE="$steps/portable_modules.cmake" \
-        CMAKE_INTERPROCEDURAL_OPTIMIZATION=OFF \
-        glm_DIR="$portable/headers/glm" nlohmann_json_DIR="$portable/headers/nlohmann_json" \
-        FastFloat_DIR="$portable/headers/fast_float" \
-        embree_DIR="$built/embree/lib/cmake/embree-$embree_version" hwy_DIR="$built/highway/lib/cmake/hwy" "${more_settings[@]}"; do
-        settings+=("cmake.define.$setting")
-    done
     {
         "$python" -m pip wheel --no-build-isolation --no-deps --wheel-dir "$work" "${settings[@]/#/--config-settings=}" . &&
             "$python" -m zipfile -e "$work"/*.whl "$work/unpacked" && finish_wheel "$python" "$work"

@@ -33,7 +33,7 @@ WeightWindow::WeightWindow(std::span<const DimmedPoint> lit, std::span<const glm
     high += 2.0 * radius_mm;
     for (int axis = 0; axis < 3; ++axis)
         size_[static_cast<std::size_t>(axis)] = static_cast<int>((high[axis] - low_[axis]) / cell_mm_) + 1;
-    const std::size_t cells = static_cast<std::size_t>(size_[0]) * size_[1] * size_[2];
+    const std::size_t cells = cell_of({size_[0] - 1, size_[1] - 1, size_[2] - 1}) + 1;
 
     std::vector<float> dimming(cells, never);
     std::vector<float> distance(cells, never);
@@ -68,7 +68,8 @@ double WeightWindow::weight_at(const glm::dvec3& position) const {
 }
 
 std::size_t WeightWindow::cell_of(const std::array<int, 3>& at) const {
-    return (static_cast<std::size_t>(at[0]) * size_[1] + at[1]) * size_[2] + at[2];
+    const auto size = [](int n) { return static_cast<std::size_t>(n); };
+    return (size(at[0]) * size(size_[1]) + size(at[1])) * size(size_[2]) + size(at[2]);
 }
 
 std::array<int, 3> WeightWindow::at(const glm::dvec3& position) const {

@@ -69,8 +69,8 @@ Boundary boundary_of(double n, ShapeSurface surface) {
     const auto entering = [&](double x) {
         return rough ? 2 * (1 - diffuse.outside) : 2 * n * n * (1 - reflectance(x));
     };
-    for (int row = 0; row < 2; ++row) {
-        for (int column = 0; column < 2; ++column) {
+    for (std::size_t row = 0; row < 2; ++row) {
+        for (std::size_t column = 0; column < 2; ++column) {
             const double even_flux = half_range([&](double x) { return x * even[column](x); }, critical);
             const double odd_flux = half_range([&](double x) { return x * odd[column](x); }, critical);
             const double back_even = 2 * diffuse_inside * even_flux;
@@ -132,7 +132,7 @@ double half_space_exitance(const Sp3Medium& medium) {
     const double n = medium.refractive_index;
     const double critical = n > 1 ? std::sqrt(1 - 1 / (n * n)) : 0.0;
     double exitance = 0;
-    for (int i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < 2; ++i) {
         const auto flight = [&](double mu) {
             return 2 * mu * (1 - fresnel_reflectance(n, 1.0, mu)) * medium.extinction /
                    (medium.extinction + medium.decay[i] * mu);

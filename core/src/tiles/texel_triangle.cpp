@@ -10,7 +10,7 @@
 namespace skinglow::detail {
 
 TexelTriangle::TexelTriangle(std::span<const glm::vec3, 3> corners) {
-    for (int k = 0; k < 3; ++k) corners_[k] = glm::dvec2(corners[k].x, corners[k].y);
+    corners_ = {glm::dvec2(corners[0]), glm::dvec2(corners[1]), glm::dvec2(corners[2])};
     low_ = glm::min(corners_[0], glm::min(corners_[1], corners_[2]));
     high_ = glm::max(corners_[0], glm::max(corners_[1], corners_[2]));
     const glm::dvec2 u = corners_[1] - corners_[0];

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/mat3x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -64,9 +64,9 @@ class TexelTriangle {
         return glm::dot(inward_[k], texel - corners_[(k + 1) % 3]);
     }
 
-    std::array<glm::dvec2, 3> corners_{};
-    std::array<glm::dvec2, 3>
-        inward_{};  ///< normal of the edge across from corner k; length: that of the edge
+    // Three columns of two rows, indexed by int as vectors are.
+    glm::dmat3x2 corners_{0.0};
+    glm::dmat3x2 inward_{0.0};  ///< normal of the edge across from corner k; length: that of the edge
     glm::dvec3 length_{0.0};
     glm::dvec2 low_{0.0};
     glm::dvec2 high_{0.0};

@@ -46,7 +46,7 @@ double largest_difference(const PreparedRig& lights, const SurfaceLighting& ligh
 
 TEST(SurfaceLighting, IsExactForSmallPointsSharpSpotsAndSuns) {
     RandomScene random(3);
-    for (int trial = 0; trial < 60; ++trial) {
+    for (std::size_t trial = 0; trial < 60; ++trial) {
         FlatLight light;
         light.kind = std::array{LightKind::point, LightKind::spot, LightKind::sun}[trial % 3];
         light.position = random.unit_vector() * random.decades(0.3, 10);
