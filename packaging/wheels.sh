@@ -56,7 +56,7 @@ build_wheel() {
     mkdir -p "$work"
     local setting told settings=(build-dir="$built/skinglow_build" install.components=python) core_settings=(SKINGLOW_RAYS=ON
         SKINGLOW_PARTS="$built/wheel_parts" CMAKE_TOOLCHAIN_FILE="$toolchain"
-        CMAKE_PROJECT_skinglow_INCLUDE="$steps/portable_modules.cmake" CMAKE_INTERPROCEDURAL_OPTIMIZATION=OFF
+        CMAKE_PROJECT_skinglow_INCLUDE="$steps/portable_modules.cmake"
         glm_DIR="$portable/headers/glm" nlohmann_json_DIR="$portable/headers/nlohmann_json" FastFloat_DIR="$portable/headers/fast_float"
         embree_DIR="$built/embree/lib/cmake/embree-$embree_version" hwy_DIR="$built/highway/lib/cmake/hwy")
     target_settings "$1"
