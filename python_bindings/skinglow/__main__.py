@@ -9,8 +9,9 @@ import argparse
 import contextlib
 import io
 import json
+import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import NoReturn
 
@@ -79,11 +80,32 @@ def read_mesh(path: Path) -> tuple[Array, NDArray[np.integer]]:
 
 def write_table(path: Path, header: str, columns: str, table: Array) -> None:
     """A table as .csv, with every digit, or as .npy."""
-    if path.suffix == ".npy":
-        np.save(path, table)
+    with whole_file(path) as partial:
+        if path.suffix == ".npy":
+            np.save(partial, table)
+            return
+        rows = [",".join(repr(value) for value in row) for row in table.tolist()]
+        partial.write_text("\n".join([*header.splitlines(), columns, *rows]) + "\n", encoding="utf-8")
+
+
+@contextlib.contextmanager
+def whole_file(path: Path) -> Iterator[Path]:
+    """Context manager with a file beside `path` to write, which takes its place when it is complete.
+
+    What is no regular file, as /dev/stdout, is written itself. Nothing is left where something fails.
+    """
+    if path.exists() and not path.is_file():
+        yield path
         return
-    rows = [",".join(repr(value) for value in row) for row in table.tolist()]
-    path.write_text("\n".join([*header.splitlines(), columns, *rows]) + "\n", encoding="utf-8")
+    path = path.resolve()  # what a link leads to is replaced, not the link
+    partial = path.with_name(f".{path.stem}.{os.getpid()}.part{path.suffix}")
+    try:
+        yield partial
+        with partial.open("rb+") as file:
+            os.fsync(file.fileno())
+        os.replace(partial, path)
+    finally:
+        partial.unlink(missing_ok=True)
 
 
 def weights(options: argparse.Namespace) -> None:

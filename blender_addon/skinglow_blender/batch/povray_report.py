@@ -8,6 +8,8 @@ from typing import Any
 
 import bpy
 
+from ..whole_file import whole_file
+
 #: A picture of 8 bits shows no smaller difference.
 ALLOWED_RMS = 1.0 / 255.0
 STYLE = """body { font: 15px sans-serif; margin: 2em; max-width: 70em } td, th { padding: .3em .8em; text-align: right }
@@ -40,7 +42,8 @@ def write_report(directory: Path, skin: str, entries: list[dict[str, Any]], note
         "notes": notes,
         "comparisons": entries,
     }
-    (directory / "report.json").write_text(json.dumps(whole, indent=1), encoding="utf-8")
+    with whole_file(directory / "report.json") as partial:
+        partial.write_text(json.dumps(whole, indent=1), encoding="utf-8")
     head = "".join(f"<th>{escape(name)}</th>" for name in ("Mode", "Light", *COLUMNS))
     title = f"{skin}: light that comes through, by Blender {bpy.app.version_string} and POV-Ray"
     parts = [
@@ -54,7 +57,8 @@ def write_report(directory: Path, skin: str, entries: list[dict[str, Any]], note
     ]
     text = HTML.format(title=escape(title), style=STYLE, body="\n".join(parts))
     path = directory / "report.html"
-    path.write_text(text, encoding="utf-8")
+    with whole_file(path) as partial:
+        partial.write_text(text, encoding="utf-8")
     return path
 
 

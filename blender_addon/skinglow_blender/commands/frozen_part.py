@@ -21,6 +21,7 @@ from ..show.lut_image import ensure_images
 from ..show.skin_group import new_group
 from ..show.skin_material import skin_nodes
 from ..show.tile_image import TILES
+from ..whole_file import whole_file
 from .exr_writing import write_exr
 from .shown_in_render import Shown
 from .skin import skin_settings_of
@@ -172,8 +173,5 @@ def clear_stale(parent: Path) -> None:
 
 def _write_image(path: Path, pixels: np.ndarray) -> None:
     """Writes pixels (height, width, 4) as a float32 EXR by Blender's own writer, exactly; complete or not at all."""
-    partial = path.with_name(f".{path.name}.part.exr")
-    write_exr(partial, pixels)
-    with partial.open("rb+") as file:
-        os.fsync(file.fileno())
-    os.replace(partial, path)
+    with whole_file(path) as partial:
+        write_exr(partial, pixels)

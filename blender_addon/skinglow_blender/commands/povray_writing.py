@@ -6,13 +6,14 @@ import re
 import shutil
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from errno import EISDIR
 from pathlib import Path
 
 import numpy as np
 
 from ..errors import SkinError, core
+from ..whole_file import exchange
 from .exr_writing import write_exr
 
 #: What an earlier export may have left in a scene's folder.
@@ -55,20 +56,74 @@ class SceneFiles:
 def staged(directory: Path) -> Iterator[Path]:
     """Context manager with a folder to write to, whose files come to `directory` only if nothing fails.
 
-    They replace those of an earlier export in the same folders; other files stay. Raises SkinError if writing fails.
+    They replace those of an earlier export in the same folders; other files stay. Also where Blender is killed each
+    scene's folder holds one export, or the other: the new folder takes the old one's place in one step. Where that
+    cannot be, files are moved one by one: on other systems than Linux, at the root of a disk, and where a scene's
+    folder has folders within. Raises SkinError if writing fails.
     """
-    home = next(folder for folder in (directory, *directory.absolute().parents) if folder.exists())
-    stage = None
+    directory, stage = directory.resolve(), None
     try:
-        stage = Path(tempfile.mkdtemp(prefix=".skinglow_", dir=home))
+        stage = _stage_for(directory)
         (stage / "new").mkdir()
         yield stage / "new"
-        _move(stage / "new", directory, stage / "old")
+        if not _exchange(stage / "new", directory):
+            _move(stage / "new", directory, stage / "old")
     except OSError as error:
         raise SkinError(f"Cannot write to {directory}: {error.strerror or error}") from error
     finally:
         if stage is not None:
             shutil.rmtree(stage, ignore_errors=True)
+
+
+def _stage_for(directory: Path) -> Path:
+    """A folder beside `directory`, which may take its place; within it where that is not possible."""
+    home = next(folder for folder in (directory, *directory.parents) if folder.exists())
+    if home == directory and home.stat().st_dev == home.parent.stat().st_dev:
+        with suppress(OSError):  # a folder of somebody else's
+            return Path(tempfile.mkdtemp(prefix=".skinglow_", dir=home.parent))
+    return Path(tempfile.mkdtemp(prefix=".skinglow_", dir=home))
+
+
+def _exchange(new: Path, directory: Path) -> bool:
+    """Puts each scene's folder in its place, in one step each; False where that cannot be, with nothing changed."""
+    scenes = sorted({path.parent.relative_to(new) for path in new.rglob("*") if path.is_file()})
+    targets = [directory / scene for scene in scenes]
+    if any(new.parent in target.iterdir() or not _has_files_alone(target) for target in targets if target.exists()):
+        return False
+    done: list[tuple[Path, Path]] = []
+    try:
+        for scene, target in zip(scenes, targets, strict=True):
+            fresh = new / scene
+            if not target.exists():
+                target.parent.mkdir(parents=True, exist_ok=True)
+                os.rename(fresh, target)
+            else:
+                _link_others(target, fresh, {directory / path for path in _earlier(directory, scene)})
+                shutil.copymode(target, fresh)
+                if not exchange(fresh, target):
+                    raise OSError(f"'{target}' cannot be exchanged")
+            done.append((fresh, target))
+    except OSError:
+        for fresh, target in reversed(done):
+            if not (fresh.exists() and exchange(fresh, target)):
+                os.rename(target, fresh)
+        return False
+    return True
+
+
+def _has_files_alone(folder: Path) -> bool:
+    """Whether a folder consists of files, and nobody stands in it, who would be left in one that is gone."""
+    with suppress(OSError):
+        if Path.cwd().samefile(folder):
+            return False
+    return all(path.is_symlink() or path.is_file() for path in folder.iterdir())
+
+
+def _link_others(old: Path, fresh: Path, obsolete: set[Path]) -> None:
+    """Gives the files that are not of an earlier export a name in the new folder, too."""
+    for path in old.iterdir():
+        if path not in obsolete and not (fresh / path.name).exists():
+            os.link(path, fresh / path.name, follow_symlinks=False)
 
 
 def _move(new: Path, directory: Path, old: Path) -> None:

@@ -15,6 +15,7 @@ from ..read.measured_size import scale_since_measured
 from ..read.mesh_reading import triangles_of
 from ..show.image_pairs import read_pixels
 from ..thickness import thickness_attribute
+from ..whole_file import whole_file
 from .skin import skin_settings_of
 
 #: Formats of the image: file extension, and bits a texel; 0: mm as floats.
@@ -136,18 +137,15 @@ def _triangles_in_uv(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
 
 def _write(path: Path, thickness_mm: np.ndarray, bits: int, white_mm: float) -> None:
     """Writes a PNG, or a float EXR by Blender's own writer, complete or not at all."""
-    partial = path.with_name(f".{path.stem}.part{path.suffix}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        if bits:
-            partial.write_bytes(core().gray_png(thickness_mm / white_mm, bits))
-        else:
-            _write_exr(partial, thickness_mm)
-        os.replace(partial, path)
+        with whole_file(path) as partial:
+            if bits:
+                partial.write_bytes(core().gray_png(thickness_mm / white_mm, bits))
+            else:
+                _write_exr(partial, thickness_mm)
     except (OSError, RuntimeError) as error:
         raise SkinError(f"Cannot write {path}: {error}") from error
-    finally:
-        partial.unlink(missing_ok=True)
 
 
 def _write_exr(path: Path, values: np.ndarray) -> None:

@@ -18,6 +18,7 @@ from ..batch.render import plan_batch
 from ..batch.rigs import ReadyRig, RigLike
 from ..commands.freezing import frozen_state
 from ..errors import SkinError
+from ..whole_file import whole_file
 
 #: How a task calls the add-on, and the exit code if it is not installed there.
 BATCH = ("--python-exit-code", "2", "--python-expr", "import skinglow_blender as sb; sb.batch_main()", "--")
@@ -184,6 +185,7 @@ def _ranges(numbers: list[int]) -> str:
 def _write(path: Path, content: dict[str, Any]) -> None:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(json.dumps(content, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+        with whole_file(path) as partial:
+            partial.write_text(json.dumps(content, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
     except OSError as error:
         raise SkinError(f"Cannot write to {path}: {error.strerror or error}") from error

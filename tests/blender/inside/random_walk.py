@@ -40,8 +40,9 @@ class Walk(ShapeEdits):
     def __init__(self, seed, folder):
         super().__init__(seed, folder)
         self.undoable = 0
-        self.compared = 0
+        self.compared = self.late = 0
         self.tables = set()
+        self.done = []
 
     def playback(self):
         for frame in range(1, 5):
@@ -205,6 +206,27 @@ class Walk(ShapeEdits):
         edit()
         return edit.__name__
 
+    def settle(self):
+        """The evaluated scene, when handlers have nothing more to edit."""
+        return depsgraph()
+
+    def advance(self):
+        """One edit, and what is compared after it."""
+        name = self.step()
+        self.done.append(name)
+        graph = self.settle()
+        # Lights that Blender moves after its report (handlers.py): a window looks again, here the script does.
+        again = sb.update(graph)
+        # Without a window Blender reports no change of view layer or scene (test_in_window.py has one).
+        if not name.startswith("switch"):
+            self.take_late([rebuilt.why for rebuilt in again])
+        self.compare(graph)
+
+    def take_late(self, reasons):
+        """What was seen only when the scene was looked at once more."""
+        self.late += bool(reasons)
+        assert all(" in " in why for why in reasons), reasons
+
     def compare(self, graph):
         """Every skin of the view layer shows what is computed afresh, and its materials show that."""
         for obj in self.skins():
@@ -242,11 +264,8 @@ def write_library(path):
     bpy.ops.wm.read_factory_settings(use_empty=True)
 
 
-def check_random_walk(work):
-    seed = int(os.environ.get("SKINGLOW_SEED", "20260704"))
-    steps = int(os.environ.get("SKINGLOW_STEPS", "1000"))
-    print(f"random walk: SKINGLOW_SEED={seed}, {steps} steps", flush=True)
-    write_library(work / LIBRARY)
+def begin_walk(seed, work):
+    """Two scenes, a skin and a light in each, and collections that both have; the walk of them."""
     scenes = [bpy.context.scene, bpy.data.scenes.new("Other")]
     collections = [bpy.data.collections.new(name) for name in ("Rig", "Store")]
     for scene in reversed(scenes):
@@ -257,38 +276,44 @@ def check_random_walk(work):
         add_light("Lamp")
         camera_above()
         render_settings(2, 2)
-    walk = Walk(seed, work)
-    walk.push_undo()
-    done, late = [], 0
-    try:
-        for _ in range(steps):
-            done.append(walk.step())
-            graph = depsgraph()
-            # Lights that Blender moves after its report (handlers.py): a window looks again, here the script does.
-            again = sb.update(graph)
-            # Without a window Blender reports no change of view layer or scene (test_in_window.py has one).
-            if not done[-1].startswith("switch"):
-                late += bool(again)
-                assert all(" in " in rebuilt.why for rebuilt in again), [rebuilt.why for rebuilt in again]
-            walk.compare(graph)
-            if len(done) % 25 == 0:
-                walk.freeze_and_back()
-                walk.compare(depsgraph())
-    except BaseException as error:
-        raise AssertionError(f"seed {seed}, step {len(done)}, the last edits: {done[-12:]}\n{error}") from error
-    assert late <= steps / 100, late
-    assert walk.through > steps / 10, walk.through
-    assert len(walk.tables) > steps / 10, len(walk.tables)
-    # No image is left that no node group has; what none shows any more does not outlive the file's next loading.
-    walk.save_and_load()
+    return Walk(seed, work)
+
+
+def require_images_in_use():
+    """No image is left that no node group has."""
     ours = {image for image in bpy.data.images if "Skinglow" in image.name and image.users and not image.library}
     groups = [tree for tree in bpy.data.node_groups if tree.name.startswith("Skinglow")]
     assert ours <= {i for group in groups for i in (shown_image(group), *images_of(group), *TILES.all_of(group))}, ours
+
+
+def check_random_walk(work):
+    seed = int(os.environ.get("SKINGLOW_SEED", "20260704"))
+    steps = int(os.environ.get("SKINGLOW_STEPS", "1000"))
+    print(f"random walk: SKINGLOW_SEED={seed}, {steps} steps", flush=True)
+    write_library(work / LIBRARY)
+    walk = begin_walk(seed, work)
+    walk.push_undo()
+    try:
+        for _ in range(steps):
+            walk.advance()
+            if len(walk.done) % 25 == 0:
+                walk.freeze_and_back()
+                walk.compare(depsgraph())
+    except BaseException as error:
+        raise AssertionError(
+            f"seed {seed}, step {len(walk.done)}, the last edits: {walk.done[-12:]}\n{error}"
+        ) from error
+    assert walk.late <= steps / 100, walk.late
+    assert walk.through > steps / 10, walk.through
+    assert len(walk.tables) > steps / 10, len(walk.tables)
+    # What none shows any more does not outlive the file's next loading.
+    walk.save_and_load()
+    require_images_in_use()
     return {
         "seed": seed,
-        "steps": len(done),
+        "steps": len(walk.done),
         "compared": walk.compared,
         "through": walk.through,
-        "late": late,
+        "late": walk.late,
         "different": len(walk.tables),
     }

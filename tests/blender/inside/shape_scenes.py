@@ -110,9 +110,11 @@ def fresh(
     if as_it_stands:
         to_world[:3, :3] = np.eye(3)
     vertices = (vertices - to_world[:3, 3]) @ to_world[:3, :3]
-    to_body, found = np.linalg.inv(to_world), list(visible_lights(graph, dark=True))
-    lights = [physical_light(light.data, to_body @ at) for light, at in found]
-    shadowless = [i for i, (light, _at) in enumerate(found) if not light.data.use_shadow]
+    to_body, lights, shadowless = np.linalg.inv(to_world), [], []
+    for light, at in visible_lights(graph, dark=True):  # an instance is valid no longer than its turn
+        if not light.data.use_shadow:
+            shadowless.append(len(lights))
+        lights.append(physical_light(light.data, to_body @ at))
     rows = int(obj.data["skinglow_tiles"]["rows"])
     targets = sg.TileTargets(vertices, triangles, texels, rows, unit_mm=1.0)
     where = {"points": targets.points, "normals": targets.normals}

@@ -1,0 +1,40 @@
+"""The command line is killed while it writes: what was there is whole, and what is new is whole or not there."""
+
+import os
+import random
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+
+DATA = Path(__file__).resolve().parents[1] / "data"
+RIGS = (DATA / "table1.json", DATA / "all_kinds.json")
+KILLS = 40
+
+
+def write(rig: Path, output: Path) -> list[str]:
+    """The command that writes the lookup of a rig."""
+    return [os.environ["SKINGLOW_CLI"], "lut", str(rig), "-o", str(output)]
+
+
+# An EXR has the time in it, and is never the same twice.
+@pytest.mark.parametrize("name", ["table.csv", "table.png"])
+def test_a_table_is_whole(name: str, tmp_path: Path) -> None:
+    versions = []
+    for rig in RIGS:
+        started = time.perf_counter()
+        subprocess.run(write(rig, tmp_path / name), check=True, capture_output=True)
+        took = time.perf_counter() - started
+        versions.append((tmp_path / name).read_bytes())
+    assert versions[0] != versions[1]
+    chance, killed = random.Random(name), 0
+    for number in range(KILLS):
+        with subprocess.Popen(
+            write(RIGS[number % 2], tmp_path / name), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        ) as running:
+            time.sleep(chance.uniform(0.0, took))
+            running.kill()
+        killed += running.returncode != 0
+        assert (tmp_path / name).read_bytes() in versions, number
+    assert killed > KILLS / 8
