@@ -10,7 +10,7 @@ import pytest
 
 DATA = Path(__file__).resolve().parents[1] / "data"
 RIGS = (DATA / "table1.json", DATA / "all_kinds.json")
-KILLS = 40
+KILLS = 24
 
 
 def write(rig: Path, output: Path) -> list[str]:
