@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 
 namespace skinglow::detail {
 namespace {
@@ -138,10 +138,21 @@ void PolygonCutter::unblock(std::uint32_t corner) {
 /// Along the axis that the polygon's plane faces most, relative to its first corner, so that far from the
 /// origin nothing is lost.
 void PolygonCutter::project(std::span<const std::uint32_t> corners, std::span<const glm::dvec3> positions) {
-    const glm::dvec3 origin = positions[corners[0]];
+    // By a power of two, which changes no digit: differences and products of coordinates near the largest double would overflow.
+    double largest = 0.0;
+    for (const std::uint32_t corner : corners) {
+        const glm::dvec3 size = glm::abs(positions[corner]);
+        largest = std::max({largest, size.x, size.y, size.z});
+    }
+    const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
+    const auto scaled = [&](std::uint32_t corner) {
+        const glm::dvec3& p = positions[corner];
+        return glm::dvec3(std::ldexp(p.x, -exponent), std::ldexp(p.y, -exponent), std::ldexp(p.z, -exponent));
+    };
+    const glm::dvec3 origin = scaled(corners[0]);
     glm::dvec3 normal(0.0);
     for (std::size_t i = 2; i < corners.size(); ++i) {
-        normal += glm::cross(positions[corners[i - 1]] - origin, positions[corners[i]] - origin);
+        normal += glm::cross(scaled(corners[i - 1]) - origin, scaled(corners[i]) - origin);
     }
     const glm::dvec3 size = glm::abs(normal);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -150,7 +161,7 @@ void PolygonCutter::project(std::span<const std::uint32_t> corners, std::span<co
     const double sign = normal[axis] < 0.0 ? -1.0 : 1.0;
     points_.clear();
     for (const std::uint32_t corner : corners) {
-        const glm::dvec3 offset = positions[corner] - origin;
+        const glm::dvec3 offset = scaled(corner) - origin;
         points_.emplace_back(sign * offset[u], offset[v]);
     }
 }
@@ -164,7 +175,8 @@ void PolygonCutter::build_tree() {
         high = glm::max(high, points_[i]);
         if (is_reflex_[i] != 0) reflex_.push_back(i);
     }
-    const glm::dvec2 scale = 65535.0 / glm::max(high - low, glm::dvec2(std::numeric_limits<double>::min()));
+    constexpr double least_size = 1e-300;  // of points in one line: 65535 times its inverse is a number, too
+    const glm::dvec2 scale = 65535.0 / glm::max(high - low, glm::dvec2(least_size));
     std::vector<std::uint32_t> codes(points_.size());
     for (const std::uint32_t i : reflex_) {
         const glm::dvec2 place = glm::min((points_[i] - low) * scale, glm::dvec2(65535.0));
