@@ -70,7 +70,9 @@ void VertexLight::sort_by_position() {
         high = glm::max(high, positions.back());
     }
     constexpr float cells = 1023;  // 10 bits an axis
-    const glm::vec3 scale = cells / glm::max(high - low, glm::vec3(std::numeric_limits<float>::min()));
+    constexpr float least_size =
+        1e-30F;  // of positions in one plane: 1023 times its inverse is a number, too
+    const glm::vec3 scale = cells / glm::max(high - low, glm::vec3(least_size));
     std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
     order.reserve(wanted_.size());
     for (std::size_t i = 0; i < wanted_.size(); ++i) {
