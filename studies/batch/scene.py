@@ -8,18 +8,21 @@ from typing import Any
 import bpy
 import skinglow as sg
 import skinglow_blender as sb
+from mathutils import Matrix
 
 from studies import scenes as stage
 from studies.heads import loading
 
+#: At the size of a person's head Suzanne's mouth and eyelids are as thin as ears and glow, too: she is larger.
+SUZANNE_MM, LARGER = 60.0, 100.0 / 60.0
 FRAMES = 3
 TURN_DEGREES = 30.0  # to each side
 #: Tables are dark at the thickness of these ears; shaders that use them scale them up by hand.
 STRENGTH = 60.0
 #: Collection, light, linear color, power in W, and position in meters relative to the center of a head facing -Y.
 LIGHTS = (
-    ("sunset", "low sun", (1.0, 0.60, 0.25), 4.3, (0.18, 0.21, 0.03)),
-    ("sunset", "sky", (0.25, 0.40, 1.0), 2.9, (-0.30, -0.36, 0.30)),
+    ("sunset", "low sun", (1.0, 0.60, 0.25), 12.0, (0.30, 0.35, 0.05)),
+    ("sunset", "sky", (0.25, 0.40, 1.0), 8.0, (-0.50, -0.60, 0.50)),
 )
 SUN_AT_THE_END = (1.0, 0.15, 0.02)
 
@@ -29,9 +32,10 @@ def main(job: dict[str, Any]) -> None:
     scene.render.resolution_x = scene.render.resolution_y = 240
     scene.cycles.samples = 32
     scene.frame_start, scene.frame_end = 1, FRAMES
-    head, _placed = loading.load({"mesh": "suzanne", "unit_mm": 60.0})
+    head, _placed = loading.load({"mesh": "suzanne", "unit_mm": SUZANNE_MM})
+    head.data.transform(Matrix.Scale(LARGER, 4))
     center = stage.center_of(head)
-    stage.aim_camera(scene, center, 0.174, 0.0)
+    stage.aim_camera(scene, center, 0.29, 0.0)
     for collection, name, color, power, position in LIGHTS:
         add_light(scene, collection, name, color, power, [a + b for a, b in zip(center, position, strict=True)])
     for frame in range(1, FRAMES + 1):
