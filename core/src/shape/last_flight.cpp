@@ -43,21 +43,21 @@ class FlightTracer {
           options_(options),
           fluence_(grid.size() + ghosts.of_modes.rows()),
           light_(body_.welded_of().size()),
+          extinction_(medium.lanes([](const Sp3Medium& m) { return m.extinction; })),
+          scattered_(medium.lanes([](const Sp3Medium& m) { return 0.25 * m.albedo; })),
+          bend_(medium.lanes([&](const Sp3Medium& m) {
+              const double x = m.decay[0] * static_cast<double>(grid.cell());
+              return x * x / 6;
+          })),
+          per_step_(decay(step_cells * grid.cell())),
           index_n_(medium[0].refractive_index),
           escaping_(static_cast<float>(1 / (index_n_ * index_n_))),
           inside_reflectance_(static_cast<float>(medium[0].inside_reflectance)),
           transmittance_(static_cast<float>(medium[0].transmittance)),
-          extinction_(medium.lanes([](const Sp3Medium& m) { return m.extinction; })),
-          scattered_(medium.lanes([](const Sp3Medium& m) { return 0.25 * m.albedo; })),
           max_length_(max_optical_depth / static_cast<float>(medium.min_extinction())),
           step_(step_cells * grid.cell()),
-          per_step_(decay(step_)),
           max_extinction_(std::max({extinction_[0], extinction_[1], extinction_[2], extinction_[3]})),
-          center_(step_center(step_)),
-          bend_(medium.lanes([&](const Sp3Medium& m) {
-              const double x = m.decay[0] * static_cast<double>(grid.cell());
-              return x * x / 6;
-          })) {
+          center_(step_center(step_)) {
         for (std::size_t c = 0; c < corner_.size(); ++c)
             corner_[c] = grid.linear(
                 {static_cast<int>(c >> 2U), static_cast<int>(c >> 1U & 1U), static_cast<int>(c & 1U)});
@@ -179,7 +179,10 @@ class FlightTracer {
     void collect(const Ray& ray, float length, Lanes weight) {
         const float scale = 1 / grid_.cell();
         const glm::vec3 start = (ray.origin - grid_.low()) * scale - 0.5F;
-        for (float done = 0; done < length; done += step_) {
+        float next = 0;
+        while (next < length) {
+            const float done = next;
+            next += step_;
             const float step = std::min(step_, length - done);
             const Lanes left = weight * (step < step_ ? decay(step) : per_step_);
             const float center = step < step_ ? step_center(step) : center_;
@@ -238,18 +241,18 @@ class FlightTracer {
     LastFlightOptions options_;
     RowSums<Lanes> fluence_;
     RowSums<Lanes> light_;
+    Lanes extinction_;
+    Lanes scattered_;
+    Lanes bend_;
+    Lanes per_step_;
     double index_n_;
     float escaping_;  ///< of cosine-distributed rays, those that a smooth surface does not reflect totally
     float inside_reflectance_;
     float transmittance_;
-    Lanes extinction_;
-    Lanes scattered_;
     float max_length_;
     float step_;
-    Lanes per_step_;
     float max_extinction_;
     float center_;
-    Lanes bend_;
     std::array<std::size_t, 8> corner_{};  ///< of a cube of cells, from the first one's place in the grid
 };
 

@@ -97,7 +97,7 @@ ShapeData::Pair ShapeData::combine(const Lanes& all, const Lanes& of_half_space)
         double flesh_mm = thickest_mm;
         for (std::size_t k = 1; k <= last && through[k - 1] > 0; ++k) {
             const double rise = medium[k].decay[0] - medium[k - 1].decay[0];
-            const double before = static_cast<double>(through[k - 1]);
+            const auto before = static_cast<double>(through[k - 1]);
             raise(k, before * std::exp(-flesh_mm * rise));
             if (rise > 0 && through[k] > 0)
                 flesh_mm = std::max(thickest_mm, std::log(before / static_cast<double>(through[k])) / rise);
