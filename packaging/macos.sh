@@ -35,7 +35,8 @@ sys.stdout.buffer.write(zipfile.ZipFile(sys.argv[1]).read("ziglang/lib/libc/darw
         echo 'int nothing() { return 0; }' >"$built/nothing.cpp"
         ZIG_VERBOSE_LINK=1 "$SKINGLOW_ZIG" c++ -target "$triple" -shared "$built/nothing.cpp" -o "$built/nothing.dylib" \
             >"$built/linker.log" 2>&1 || { cat "$built/linker.log" >&2; fail "zig could not build its C++ library for $target"; }
-        tr ' ' '\n' <"$built/linker.log" | grep -E '/lib(c\+\+|c\+\+abi|compiler_rt)\.a$' | sort -u >"$told" ||
+        # By paths from the current folder, which is not the one that the modules are linked in.
+        tr ' ' '\n' <"$built/linker.log" | grep -E '/lib(c\+\+|c\+\+abi|compiler_rt)\.a$' | sort -u | xargs realpath >"$told" ||
             fail "zig does not tell where its C++ library is: $built/linker.log"
     fi
     SKINGLOW_MACOS_LIBRARIES="$(tr '\n' ' ' <"$told") $list"
