@@ -65,6 +65,22 @@ def test_changed_lights_are_as_if_solved_anew(made, count, change):
     assert_same(made.light(new, WORLD, previous=lit, **FINE), made.light(new, WORLD, **FINE))
 
 
+# Found by tests/blender/long_edits.py: what a group of lights gave was cut off below 0 before the rest was added.
+@pytest.mark.parametrize("world", [None, WORLD], ids=["black", "lit"])
+@pytest.mark.parametrize("count", [2, 6])
+def test_lights_that_take_light_away_take_it_from_all_others(made, count, world):
+    dark = sg.Light("SUN", (0.1, 1.0, 0.8), direction=(0.1, 0.2, -1.0), power=-8.0)
+    old = [dark, *lights(count), point(5, power=-1.0)]
+    new = [*old[:-3], point(17), point(18), old[-1]]
+    lit = made.light(old, world, **FINE)
+    found, expected = made.light(new, world, previous=lit, **FINE), made.light(new, world, **FINE)
+    assert expected.exitance.min() == 0.0 < expected.exitance.max()
+    assert_same(found, expected)
+    brighter = made.light([light for light in new if light.power > 0.0], world, **FINE)
+    # Not at each point: green light taken away is also the blue that it lacks, where colors are out of gamut.
+    assert np.all(expected.exitance.mean(axis=0) < brighter.exitance.mean(axis=0))
+
+
 @pytest.mark.parametrize("count", [2, 6])
 @pytest.mark.parametrize("change", [(None, WORLD), (WORLD, None), (WORLD, TINTED)], ids=["lit", "black", "other"])
 def test_another_world_is_as_if_solved_anew(made, count, change):

@@ -168,6 +168,10 @@ std::vector<SiteLight> ShapeData::sum(std::span<const ColoredLight> lights) cons
     const bool is_gray = std::all_of(lights.begin(), lights.end(), [](const ColoredLight& one) {
         return one.color.r == one.color.g && one.color.g == one.color.b;
     });
+    // Lights of negative power, which can take away no more light than there is.
+    const bool takes_away = std::any_of(lights.begin(), lights.end(), [](const ColoredLight& one) {
+        return std::min({one.color.r, one.color.g, one.color.b}) < 0;
+    });
     std::vector<SiteLight> result(spectrum && !is_gray ? 3 : 1);
     for (std::size_t c = 0; c < result.size(); ++c) {
         result[c] = {std::vector<Lanes>(sites), std::vector<Lanes>(sites)};
@@ -179,6 +183,14 @@ std::vector<SiteLight> ShapeData::sum(std::span<const ColoredLight> lights) cons
                 result[c].exitance[s] += color * one.light->exitance[s];
                 result[c].reflected[s] += color * one.light->reflected[s];
             }
+        }
+        if (!takes_away) continue;
+        const auto above_zero = [](Lanes& e) {
+            e = each_lane([&](std::size_t k) { return std::max(0.0F, e[k]); });
+        };
+        for (std::size_t s = 0; s < sites; ++s) {
+            above_zero(result[c].exitance[s]);
+            above_zero(result[c].reflected[s]);
         }
     }
     return result;

@@ -120,10 +120,10 @@ double cell_for(const LaneMedium& medium, double tolerance, double min_cell, dou
     return low;
 }
 
-void add_colored(std::span<const SiteLight> solved, std::vector<ColoredLight>& lights) {
+void add_colored(std::span<const SiteLight> solved, std::vector<ColoredLight>& lights, double sign) {
     for (std::size_t i = 0; i < solved.size(); ++i) {
-        glm::dvec3 color(solved.size() == 1 ? 1.0 : 0.0);
-        if (solved.size() > 1) color[static_cast<int>(i)] = 1.0;
+        glm::dvec3 color(solved.size() == 1 ? sign : 0.0);
+        if (solved.size() > 1) color[static_cast<int>(i)] = sign;
         lights.push_back({&solved[i], color});
     }
 }

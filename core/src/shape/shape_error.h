@@ -22,8 +22,8 @@ double back_lit_error(const LaneMedium& medium, double cell);
 /// @throws std::invalid_argument naming the least tolerance that the smallest cells keep
 double cell_for(const LaneMedium& medium, double tolerance, double min_cell, double max_cell);
 
-/// Of ShapeData::solve's, each with its color.
-void add_colored(std::span<const SiteLight> solved, std::vector<ColoredLight>& lights);
+/// Of ShapeData::solve's, each with its color, times a sign.
+void add_colored(std::span<const SiteLight> solved, std::vector<ColoredLight>& lights, double sign = 1);
 
 /// Estimated errors of the sum of some lights, W/m^2, one per site. Of a tissue, what becomes of color between the
 /// nodes is part of it.

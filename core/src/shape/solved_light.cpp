@@ -47,8 +47,8 @@ void add_scaled(const WhiteIrradiance& white, const glm::dvec3& strength, std::s
     for (std::size_t v = 0; v < sum.size(); ++v) sum[v] += scale * static_cast<double>(white.relative[v]);
 }
 
-void add(std::span<const glm::dvec3> light, std::span<glm::dvec3> sum) {
-    for (std::size_t v = 0; v < sum.size(); ++v) sum[v] += light[v];
+void add(std::span<const glm::dvec3> light, double sign, std::span<glm::dvec3> sum) {
+    for (std::size_t v = 0; v < sum.size(); ++v) sum[v] += sign * light[v];
 }
 
 }  // namespace
@@ -174,26 +174,35 @@ void SolvedLight::solve_world(LightTracer& tracer) const {
     });
 }
 
-/// All that is left, at once.
+/// All that is left, at once. Lights that take away are solved by themselves: what a solve gives is never negative, so
+/// that in a sum with others it would matter which others those are.
 void SolvedLight::solve_group(LightTracer& tracer) {
-    LightGroup group;
+    LightGroup give;
+    LightGroup take;
     for (std::size_t k = 0; k < lights.size(); ++k) {
-        if (state_[k] == LightState::open) group.lights.push_back(k);
+        if (state_[k] != LightState::open) continue;
+        (rig.data().prepared[k].power < 0 ? take : give).lights.push_back(k);
     }
-    group.has_world = state_of_world_ == LightState::open;
+    give.has_world = state_of_world_ == LightState::open;
+    expect_work(tracer.work() * static_cast<double>(give.lights.size() + take.lights.size()));
+    solve_group(std::move(give), 1, tracer);
+    solve_group(std::move(take), -1, tracer);
+}
+
+void SolvedLight::solve_group(LightGroup group, double sign, LightTracer& tracer) {
     if (group.lights.empty() && !group.has_world) return;
     auto solved = std::make_shared<LightGroup::Solved>();
     solved->quality = quality();
+    solved->sign = sign;
     solved->irradiance.assign(shape->vertices.size(), glm::dvec3(0.0));
-    expect_work(tracer.work() * static_cast<double>(group.lights.size()));
     for (const std::size_t k : group.lights) {
         tracer.of_light(k, *lights[k], [&](const WhiteIrradiance& white) {
-            add_scaled(white, rig.data().prepared[k].strength(), solved->irradiance);
+            add_scaled(white, sign * rig.data().prepared[k].strength(), solved->irradiance);
         });
         finish_work(tracer.work());
         state_[k] = LightState::in_group;
     }
-    if (group.has_world) add(tracer.of_world(*world), solved->irradiance);
+    if (group.has_world) add(tracer.of_world(*world), 1, solved->irradiance);
     require_irradiances(light_at_vertices, solved->irradiance);
     solved->nodes = shape->solve(solved->irradiance, quality());
     group.solved = std::move(solved);
@@ -203,14 +212,14 @@ void SolvedLight::solve_group(LightTracer& tracer) {
 
 void SolvedLight::sum_irradiance(LightTracer& tracer) {
     irradiance.assign(shape->vertices.size(), glm::dvec3(0.0));
-    for (const LightGroup& group : groups_) add(group.solved->irradiance, irradiance);
+    for (const LightGroup& group : groups_) add(group.solved->irradiance, group.solved->sign, irradiance);
     for (std::size_t k = 0; k < lights.size(); ++k) {
         if (state_[k] != LightState::alone) continue;
         tracer.of_light(k, *lights[k], [&](const WhiteIrradiance& white) {
             add_scaled(white, rig.data().prepared[k].strength(), irradiance);
         });
     }
-    if (state_of_world_ == LightState::alone) add(tracer.of_world(*world), irradiance);
+    if (state_of_world_ == LightState::alone) add(tracer.of_world(*world), 1, irradiance);
     require_irradiances(light_at_vertices, irradiance);
 }
 
@@ -223,7 +232,7 @@ std::vector<ColoredLight> SolvedLight::parts() const {
             result.push_back({&one.nodes, strength(k, rig.data().prepared[k].color)});
     }
     if (state_of_world_ == LightState::alone) add_colored(*world->solved.ready(), result);
-    for (const LightGroup& group : groups_) add_colored(group.solved->nodes, result);
+    for (const LightGroup& group : groups_) add_colored(group.solved->nodes, result, group.solved->sign);
     return result;
 }
 

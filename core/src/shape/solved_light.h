@@ -10,8 +10,9 @@ struct LightGroup {
     bool has_world = false;
     struct Solved {
         SolveQuality quality;
-        std::vector<glm::dvec3> irradiance;
-        std::vector<SiteLight> nodes;  ///< as ShapeData::solve
+        double sign = 1;  ///< -1: lights of negative power, which take away what is solved of their opposites
+        std::vector<glm::dvec3> irradiance;  ///< before the sign
+        std::vector<SiteLight> nodes;        ///< as ShapeData::solve, before the sign
     };
     std::shared_ptr<const Solved> solved;
 };
@@ -51,6 +52,7 @@ struct SolvedLight : LightScene {
     void solve_light(std::size_t light, LightTracer& tracer) const;
     void solve_world(LightTracer& tracer) const;
     void solve_group(LightTracer& tracer);
+    void solve_group(LightGroup group, double sign, LightTracer& tracer);
     void sum_irradiance(LightTracer& tracer);
 
     std::vector<LightGroup> groups_;
