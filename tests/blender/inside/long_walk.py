@@ -14,8 +14,9 @@ import skinglow_blender as sb
 
 from inside import second_addon
 from inside.leaks import datablocks, resident_mb
-from inside.random_walk import LIBRARY, Walk, begin_walk, require_images_in_use, write_library
+from inside.random_walk import Walk, begin_walk
 from inside.scenes import depsgraph
+from inside.walk_files import LIBRARY, require_images_in_use, write_library
 
 #: What a walk goes on from: written last, so that it always names a complete file.
 STATE = "state.json"

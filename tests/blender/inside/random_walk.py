@@ -4,32 +4,25 @@ The seed is printed and is part of every failure; SKINGLOW_SEED repeats a walk, 
 """
 
 import os
-from functools import cache
 
 import bpy
 import numpy as np
-import skinglow as sg
 import skinglow_blender as sb
 from skinglow_blender.commands.freezing import frozen_state
-from skinglow_blender.show.lut_image import images_of, shown_image
-from skinglow_blender.show.tile_image import TILES
 
 from inside.scenes import (
     add_light,
     black_material,
     camera_above,
     depsgraph,
-    fresh_physical_table,
-    fresh_table,
     link,
     patch,
     render_settings,
 )
+from inside.walk_files import LIBRARY, THIN, expected, require_images_in_use, write_library
 from inside.walk_mesh_edits import skin_nodes
 from inside.walk_shape_edits import ShapeEdits
 
-THIN = [0.0, 1.0, 2.0, 3.0]
-LIBRARY = "library.blend"
 #: Names each edit as it comes: for a Blender that crashes.
 TRACE = bool(os.environ.get("SKINGLOW_TRACE"))
 
@@ -241,29 +234,6 @@ class Walk(ShapeEdits):
         assert len(set(rows)) == len(rows), rows
 
 
-@cache
-def light_skin(size):
-    return sg.base_lut(sg.TISSUE_PRESETS["light"], size, 12.0)
-
-
-def expected(obj, graph):
-    settings = obj.skinglow
-    if settings.mode == "EXISTING":
-        return sg.six_gaussian_lookup(settings.size, 12.0).astype(np.float32)
-    if settings.mode == "PHYSICAL":
-        return fresh_physical_table(obj, graph, light_skin(settings.size))
-    return fresh_table(obj, graph, settings.size)
-
-
-def write_library(path):
-    """A file with a skin and a light, from which they are appended and linked."""
-    sb.make_skin(patch("Library skin", material=black_material("Library")), thickness=THIN, mode="paper")
-    add_light("Library lamp", color=(0.2, 0.9, 0.4), location=(1.0, 1.0, 1.0))
-    depsgraph()
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-
-
 def begin_walk(seed, work):
     """Two scenes, a skin and a light in each, and collections that both have; the walk of them."""
     scenes = [bpy.context.scene, bpy.data.scenes.new("Other")]
@@ -277,13 +247,6 @@ def begin_walk(seed, work):
         camera_above()
         render_settings(2, 2)
     return Walk(seed, work)
-
-
-def require_images_in_use():
-    """No image is left that no node group has."""
-    ours = {image for image in bpy.data.images if "Skinglow" in image.name and image.users and not image.library}
-    groups = [tree for tree in bpy.data.node_groups if tree.name.startswith("Skinglow")]
-    assert ours <= {i for group in groups for i in (shown_image(group), *images_of(group), *TILES.all_of(group))}, ours
 
 
 def check_random_walk(work):

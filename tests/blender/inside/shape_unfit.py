@@ -2,6 +2,7 @@
 
 import bpy
 import skinglow_blender as sb
+from skinglow_blender.commands.health import repair
 
 from inside.scenes import depsgraph, patch
 from inside.shape_scenes import assert_through, lobe, shape_skin, sun
@@ -49,6 +50,27 @@ def check_edited_faces(_work):
     sb.make_skin(obj, thickness=[3.0] * len(obj.data.vertices))
     assert is_through(obj)
     assert_through(obj)
+
+
+def check_a_negative_scale_that_is_applied(_work):
+    """Blender 5.2 turns the faces around then: they are told as edited, and Repair lights them again."""
+    sun()
+    obj = lobe(levels=2)
+    obj.scale = (-1.0, 1.0, 1.0)
+    depsgraph()
+    shape_skin(obj)
+    assert_through(obj)
+    first = tuple(obj.data.polygons[0].vertices)
+    bpy.ops.object.transform_apply(location=False, rotation=False, scale=True)
+    depsgraph()
+    is_turned = tuple(obj.data.polygons[0].vertices) != first
+    assert is_through(obj) != is_turned and ("edited" in faults(obj)) == is_turned, faults(obj)
+    if is_turned:
+        repair(obj)
+        depsgraph()
+        sb.update(depsgraph())
+        assert not faults(obj)
+        assert_through(obj)
 
 
 def check_lighting_is_chosen_and_left(_work):
