@@ -13,6 +13,9 @@ RIGS = (DATA / "table1.json", DATA / "all_kinds.json")
 KILLS = 24
 
 
+TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+
+
 def write(rig: Path, output: Path) -> list[str]:
     """The command that writes the lookup of a rig."""
     return [os.environ["SKINGLOW_CLI"], "lut", str(rig), "-o", str(output)]
@@ -37,4 +40,34 @@ def test_a_table_is_whole(name: str, tmp_path: Path) -> None:
             running.kill()
         killed += running.returncode != 0
         assert (tmp_path / name).read_bytes() in versions, number
+    assert killed > KILLS / 8
+
+
+def test_a_scene_of_pov_ray_is_whole_and_what_else_its_folder_has_stays(tmp_path: Path) -> None:
+    mesh, folder = tmp_path / "mesh.obj", tmp_path / "scene"
+    mesh.write_text(TETRAHEDRON)
+
+    def command(number: int) -> list[str]:
+        given = (str(RIGS[number % 2]), "--mesh", str(mesh), "--point", "0", "0", "0", "-o", str(folder))
+        return [os.environ["SKINGLOW_CLI"], "povray", *given]
+
+    def content() -> dict[str, bytes]:
+        return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+    folder.mkdir()
+    (folder / "notes.txt").write_text("of the user")
+    versions = []
+    for number in range(2):
+        started = time.perf_counter()
+        subprocess.run(command(number), check=True, capture_output=True)
+        took = time.perf_counter() - started
+        versions.append(content())
+    assert versions[0] != versions[1] and versions[0]["notes.txt"] == b"of the user"
+    chance, killed = random.Random(5), 0
+    for number in range(KILLS):
+        with subprocess.Popen(command(number), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as running:
+            time.sleep(chance.uniform(0.0, took))
+            running.kill()
+        killed += running.returncode != 0
+        assert content() in versions, number
     assert killed > KILLS / 8

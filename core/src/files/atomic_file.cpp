@@ -136,7 +136,19 @@ bool swap_names(const fs::path& a, const fs::path& b, unsigned flags) {
     return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), flags) == 0;
 }
 
-/// Moves what the old folder has beside the files of the new one over into it.
+/// Gives what the old folder has beside the files of the new one a second name there, so that whoever is killed now
+/// loses none of it. Not folders, which have one name alone.
+void link_others(const fs::path& old_folder, const fs::path& new_folder,
+                 const std::set<std::string>& obsolete) {
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(old_folder, error)) {
+        const fs::path name = entry.path().filename();
+        if (!obsolete.contains(name.string())) fs::create_hard_link(entry.path(), new_folder / name, error);
+    }
+}
+
+/// Moves what the old folder has beside the files of the new one over into it: folders, files where the file system has
+/// no second names, and what came after link_others.
 void keep_others(const fs::path& old_folder, const fs::path& new_folder,
                  const std::set<std::string>& obsolete) {
     std::error_code error;
@@ -215,9 +227,12 @@ void replace_folder(const fs::path& path, const std::map<std::string, std::strin
     constexpr int max_tries = 100;
     for (int i = 0; i < max_tries; ++i) {
         if (swap_names(fresh, target, RENAME_NOREPLACE)) break;
-        if (errno == EEXIST && swap_names(fresh, target, RENAME_EXCHANGE)) {
-            keep_others(fresh, target, obsolete);
-            break;
+        if (errno == EEXIST) {
+            link_others(target, fresh, obsolete);
+            if (swap_names(fresh, target, RENAME_EXCHANGE)) {
+                keep_others(fresh, target, obsolete);
+                break;
+            }
         }
         if ((errno != EEXIST && errno != ENOENT) || i + 1 == max_tries)
             refuse_write(path, errno, folder_remedy);
