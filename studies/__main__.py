@@ -47,7 +47,7 @@ STUDIES = {
     "batch": Study("the example of docs/batch.md: frames x light rigs", ("package", "blender"), ("batch_example.png",)),
     "panel": Study(
         "the pictures of Blender's window in docs/blender.md",
-        pictures=("guide_select.png", "panel.png", "guide_ear.png", "thickness.png", "panel_3_4.png"),
+        pictures=("guide_select.png", "panel.png", "guide_ear.png", "thickness.png"),
     ),
     "povray": Study("the picture of docs/povray.md, by POV-Ray alone", ("povray",), ("povray_example.png",)),
     "turn": Study(

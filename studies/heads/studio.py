@@ -32,7 +32,9 @@ def settings(scene: bpy.types.Scene, width: int, height: int, samples: int) -> N
     scene.render.resolution_percentage = 100
     cycles = scene.cycles
     cycles.samples, cycles.use_adaptive_sampling, cycles.adaptive_threshold = samples, True, 0.03
-    cycles.max_bounces, cycles.diffuse_bounces, cycles.glossy_bounces, cycles.transmission_bounces = 3, 2, 1, 0
+    # Without a denoiser, what the bulb lights is noise where it is seen by a bounce.
+    cycles.max_bounces = 3 if can_denoise() else 0
+    cycles.diffuse_bounces, cycles.glossy_bounces, cycles.transmission_bounces = 2, 1, 0
     cycles.caustics_reflective = cycles.caustics_refractive = False
     cycles.sample_clamp_indirect = 4.0
     cycles.use_denoising = can_denoise()

@@ -1,5 +1,5 @@
 """Takes the pictures of docs/blender.md that show a window: a full Blender in a virtual display, a click on the panel's
-button. Into the docs a Blender before 4.2 gives the panel alone, as panel_3_4.png.
+button.
 
 Needs a full Blender, Xvfb, the core as a folder, made by scripts/build, and the demo's person, which is downloaded;
 from Blender 4.2 on also scrot.
@@ -18,15 +18,12 @@ from pathlib import Path
 
 from studies.display import virtual_display
 from studies.heads import sources
-from studies.hosts import Host
 from studies.paths import IMAGES, PROJECT, SITE
 from studies.progress import Progress, StudyError
 
 SCREEN = (1440, 900)
 #: By subject of window.py: the scene before the click, the panel after it, the ear up close; and thickness.
 PICTURES = {"guide": ("guide_select.png", "panel.png", "guide_ear.png"), "thickness": ("thickness.png",)}
-#: Of an older Blender.
-OLDER = {"panel.png": "panel_3_4.png"}
 
 
 def main(arguments: list[str]) -> None:
@@ -36,24 +33,18 @@ def main(arguments: list[str]) -> None:
     parser.add_argument("folder", nargs="?", type=Path, default=IMAGES, help="(default %(default)s)")
     options = parser.parse_args(arguments)
     blender = shlex.split(options.blender)
-    kept = {name: name for names in PICTURES.values() for name in names}
-    is_older = tuple(map(int, Host.find(blender[0]).version.split(".")[:2])) < (4, 2)
-    if is_older and options.folder == IMAGES:
-        kept = OLDER
     head = sources.head_job(None, Progress(PROJECT / "build" / "panel.log"))
     with tempfile.TemporaryDirectory() as taken:
         for subject, names in PICTURES.items():
-            if not set(names) & set(kept):
-                continue
             take(blender, [subject, json.dumps(head), str(SITE), *(str(Path(taken, name)) for name in names)])
-        for name, target in kept.items():
-            print(shutil.copy(Path(taken, name), options.folder.resolve() / target))
+            for name in names:
+                print(shutil.copy(Path(taken, name), options.folder.resolve() / name))
 
 
 def take(blender: list[str], arguments: list[str]) -> None:
     """Runs window.py in a window of its own; raises StudyError where the pictures were not taken."""
     with tempfile.TemporaryDirectory() as profile, virtual_display(*SCREEN) as display:
-        command = [*blender, "--factory-startup"]
+        command = [*blender, "--factory-startup", "--python-exit-code", "3"]  # ends where a step fails at once
         command += ["--enable-event-simulate", "--window-geometry", "0", "0", *map(str, SCREEN)]
         command += ["-P", str(Path(__file__).with_name("window.py")), "--", *arguments]
         environment = {**os.environ, "BLENDER_USER_RESOURCES": profile, "DISPLAY": display}

@@ -79,6 +79,7 @@ def _begin() -> Iterator[float | None]:
     with in_view():
         ear = build_guide_scene(json.loads(head_job))
     yield 0.5
+    area_of("VIEW_3D").spaces.active.overlay.show_extras = False  # lines of lights and of the camera cross the head
     region = area_of("VIEW_3D").spaces.active.region_3d
     region.view_perspective = "PERSP"
     region.view_location = studio.from_ear(ear, VIEW_CENTER)
