@@ -49,7 +49,7 @@ def scene():
 
 
 def set_version(obj, version):
-    """Another color of the light, another place of the camera, another thickness: each file differs."""
+    """Another color of the light, another position of the camera, another thickness: each file differs."""
     bpy.data.lights["Lamp"].color = COLORS[version]
     bpy.context.scene.camera.location.x = 0.1 * version
     bpy.data.objects["Lamp"].location.x = 0.3 + version
