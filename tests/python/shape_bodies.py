@@ -31,6 +31,21 @@ def ball(radius: float, levels: int = 4) -> Body:
     return radius * np.array(vertices), np.array(faces)
 
 
+def icosahedron(x: float, y: float, z: float) -> Body:
+    """Its semi-axes; the first vertex is on the positive z axis, the next five about it, at z / sqrt(5)."""
+    turn = 0.4 * np.pi * np.arange(5)
+    upper, lower = (
+        np.stack([2.0 * np.cos(turn + more), 2.0 * np.sin(turn + more), np.full(5, height)], 1) / np.sqrt(5.0)
+        for more, height in ((0.0, 1.0), (0.2 * np.pi, -1.0))
+    )
+    i = np.arange(5)
+    j = (i + 1) % 5
+    top, bottom = np.zeros(5, int), np.full(5, 11)
+    sides = [(top, 1 + i, 1 + j), (1 + i, 6 + i, 1 + j), (1 + j, 6 + i, 6 + j), (6 + i, bottom, 6 + j)]
+    vertices = np.concatenate([[(0.0, 0.0, 1.0)], upper, lower, [(0.0, 0.0, -1.0)]]) * (x, y, z)
+    return vertices, np.concatenate([np.stack(side, 1) for side in sides])
+
+
 def plate(width: float, thickness: float, cells: int) -> Body:
     """Centered on the z axis, from z = 0 up; its faces share the vertices of their edges."""
     line = np.linspace(-0.5 * width, 0.5 * width, cells + 1)

@@ -160,6 +160,29 @@ def slab(thickness, index):
     )
 
 
+def test_a_body_that_changes_by_its_last_digits_looks_the_same():
+    """On ridges that light grazes, a node was without light or had a trace of it, and color jumped by half."""
+    vertices, triangles = bodies.icosahedron(5.0, 4.0, 2.0)
+    one, other = vertices[1:6], np.roll(vertices[1:6], -1, axis=0)
+    points = np.concatenate([other + part * (one - other) for part in (1 / 3, 1 / 2, 2 / 3)])
+    normals = points / np.square((5.0, 4.0, 2.0))
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    lights = [
+        sg.Light("POINT", (0.2, 0.0, 0.25), (1.84, 1.38, 2.29), power=48.0),
+        sg.Light("POINT", (1.0, 0.75, 0.5), (-0.65, -1.55, 2.61), power=20.0),
+    ]
+
+    def light(matrix):
+        where = {"points": points @ matrix, "normals": normals}
+        return sg.Shape(vertices @ matrix, triangles, sg.Tissue(), cell_mm=1.0, **where).light(lights).transmitted
+
+    expected, random = light(np.eye(3)), np.random.default_rng(2)
+    assert expected.min() > 0.0
+    for _ in range(4):
+        found = light(np.eye(3) + 1e-7 * random.standard_normal((3, 3)))
+        assert np.sqrt(np.square(found - expected).mean()) < 1e-3 * expected.mean()
+
+
 @pytest.mark.parametrize("thickness", [1.0, 2.0, 4.0, 8.0])
 @pytest.mark.parametrize(("index", "surface"), [(1.0, "rough"), (1.4, "smooth")])
 def test_a_plate_is_a_slab(thickness, index, surface):

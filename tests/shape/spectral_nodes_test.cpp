@@ -157,6 +157,29 @@ TEST(SpectralNodes, NoiseOfDimNodesChangesLittle) {
     EXPECT_NEAR(spectrum.combine(hole)[0][0], exact[0][0], 0.3 * exact[0][0]);
 }
 
+/// A node is not known or unknown: a trace of light at it is as none.
+TEST(SpectralNodes, TracesOfLightAtANodeAreAsNone) {
+    const SpectralNodes spectrum = spectral_nodes({});
+    const std::vector<double> clean = plates(spectrum, 4.0);
+    for (unsigned dark = 1; dark < 15; ++dark) {
+        const auto with = [&](double value) {
+            std::vector<double> exitance = clean;
+            for (std::size_t k = 0; k < 4; ++k) {
+                if ((dark >> k & 1U) != 0) exitance[k] = value;
+            }
+            return spectrum.combine(exitance);
+        };
+        const glm::dmat3 none = with(0.0);
+        EXPECT_GT(none[0][0], 0.0) << dark;
+        for (const double trace : {-1e-9, 1e-300, 1e-40}) {
+            const glm::dmat3 some = with(trace);
+            for (int j = 0; j < 3; ++j) {
+                for (int k = 0; k < 3; ++k) EXPECT_NEAR(some[j][k], none[j][k], 1e-9) << dark << ' ' << trace;
+            }
+        }
+    }
+}
+
 TEST(SpectralNodes, AnyExitanceGivesFiniteMatrices) {
     const SpectralNodes spectrum = spectral_nodes(tissue_preset("very_dark").tissue);
     std::mt19937 random(3);

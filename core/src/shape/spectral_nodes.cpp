@@ -56,29 +56,38 @@ constexpr double darkest_log = -1000.0;
 /// Logarithm of what is not above 0.
 constexpr double unknown = -std::numeric_limits<double>::infinity();
 
-/// Replaces unknown logarithms by those of the next known nodes: on a line between two, as the first before
-/// it, on the line of the last two beyond them. False where none is known.
-bool fill_unknown(std::span<double> logs) {
-    std::array<std::size_t, SpectralNodes::max_count> known{};
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < logs.size(); ++i) {
-        if (logs[i] != unknown) known[count++] = i;
+/// By how much a logarithm may be below the line of the two before it: tissues of any kind are less.
+constexpr double largest_lack = 0.7;
+
+/// Over this much more a node that is dark gives way to what the others say of it.
+constexpr double fade = 4.0;
+
+/// From the first node to the second light falls no more than this: 20 mm of skin.
+constexpr double largest_fall = 24.0;
+
+/// Replaces logarithms that noise has left dark, or unknown, by what the others say. What comes through is a sum
+/// over paths, each of which falls exponentially with the attenuation: its logarithm falls from node to node,
+/// and ever less. A node fades from known to unknown, so that a trace of light changes no more than a trace.
+/// False where all are dark.
+bool fill_dark(std::span<double> logs) {
+    const std::size_t count = logs.size();
+    std::array<double, SpectralNodes::max_count> falling{};
+    for (std::size_t i = count; i-- > 0;)
+        falling[i] = i + 1 < count ? std::max(logs[i], falling[i + 1]) : logs[i];
+    if (falling[0] == unknown) return false;
+    const auto share = [](double lack) { return std::clamp(lack / fade, 0.0, 1.0); };
+    // Darker than a later one: between its neighbors.
+    for (std::size_t i = 0; i < count; ++i) {
+        const double gap = falling[i] > logs[i] && i > 0 ? share(falling[i] - logs[i]) : 0.0;
+        logs[i] =
+            gap > 0.0 ? std::lerp(falling[i], std::midpoint(logs[i - 1], falling[i + 1]), gap) : falling[i];
     }
-    if (count == 0) return false;
-    if (count == logs.size()) return true;
-    const std::size_t last = known[count - 1];
-    for (std::size_t i = 0, next = 0; i < logs.size(); ++i) {
-        if (i == known[next]) {
-            next = std::min(next + 1, count - 1);
-        } else if (i < known[0] || count == 1) {
-            logs[i] = logs[known[0]];
-        } else {
-            const std::size_t b = i > last ? last : known[next];
-            const std::size_t a = i > last ? known[count - 2] : known[next - 1];
-            const double slope = (logs[b] - logs[a]) / static_cast<double>(b - a);
-            logs[i] = logs[b] + (i > b ? std::min(0.0, slope) * static_cast<double>(i - b)
-                                       : -slope * static_cast<double>(b - i));
-        }
+    // Darker than those before it say: on their line.
+    logs[1] = std::max(logs[1], logs[0] - largest_fall);
+    for (std::size_t i = 2; i < count; ++i) {
+        const double line = logs[i - 1] - std::max(0.0, logs[i - 2] - logs[i - 1]);
+        const double lack = line - logs[i] - largest_lack;
+        if (lack > 0.0) logs[i] = line - largest_lack * (1.0 - share(lack));
     }
     return true;
 }
@@ -251,7 +260,7 @@ glm::dmat3 SpectralNodes::combine(std::span<const double> exitance_at_nodes) con
     }
     const std::span known = std::span(logs).first(nodes.size());
     glm::dmat3 matrix(0.0);
-    if (!fill_unknown(known)) return matrix;
+    if (!fill_dark(known)) return matrix;
     // The brightest node apart, so that single precision holds any light.
     const double brightest = *std::max_element(known.begin(), known.end());
     std::array<float, max_count> relative{};

@@ -38,8 +38,8 @@ struct SpectralNodes {
     /// The matrix M of a point: M * E is its exitance in linear Rec.709 where light of that color strikes the
     /// shape with irradiance E, as base_lut's matrices are for plane skin.
     /// @param exitance_at_nodes one per node, finite: the exitance where the light has irradiance 1 at every
-    ///        wavelength, entry and exit factor of the node included. 0 and less (noise of a solver) count as
-    ///        unknown and are taken from the other nodes; 0 for all nodes is no light.
+    ///        wavelength, entry and exit factor of the node included. 0 and less (noise of a solver) is no light.
+    ///        A node that is far darker than the others say is raised to that; 0 for all nodes is no light.
     glm::dmat3 combine(std::span<const double> exitance_at_nodes) const;
 
     /// One per node: together the matrix of what thick skin sends back (thick_skin.h), each wavelength given to
