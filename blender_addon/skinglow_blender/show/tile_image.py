@@ -5,7 +5,8 @@ Each skin has a range of rows of its own. The corners of its mesh know their tex
 object's custom property where the range begins.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from itertools import pairwise
 
 import bpy
 import numpy as np
@@ -95,7 +96,11 @@ def place_tiles(group: bpy.types.NodeTree, heights: Mapping[bpy.types.Object, in
     """
     placed = SESSION.tile_rows.setdefault(key_of(group), {})
     wanted = {key_of(obj): height for obj, height in heights.items()}
-    if any(placed.get(key, (0, -1))[1] != height for key, height in wanted.items()):
+    if any(placed.get(key, (0, -1))[1] != height for key, height in wanted.items()) or _overlap(placed, wanted):
+        # Rows of a skin that is gone are another one's now, also when one of its name or an undo brings it back.
+        there_is = {key_of(obj) for obj in bpy.data.objects if obj.skinglow.group == group}
+        for key in placed.keys() - there_is:
+            del placed[key]
         others = [o for o in bpy.data.objects if o.skinglow.group == group and o not in heights and TILE_PROPERTY in o]
         ranges = [_stored_range(obj, placed) for obj in others if obj.skinglow.enabled]
         taken = [each for each in ranges if each != NO_RANGE]
@@ -123,6 +128,12 @@ def _stored_range(obj: bpy.types.Object, placed: Mapping[str, tuple[int, int]]) 
     if stored is None or stored[1] == 0.0:
         return NO_RANGE
     return int(stored[0]), int(stored[0]) + rows_of(obj.data)
+
+
+def _overlap(placed: Mapping[str, tuple[int, int]], keys: Iterable[str]) -> bool:
+    """Whether two of these skins have a row in common."""
+    ranges = sorted(placed[key] for key in keys)
+    return any(first + height > after for (first, height), (after, _height) in pairwise(ranges))
 
 
 def _is_free(first: int, height: int, taken: list[tuple[int, int]]) -> bool:
