@@ -46,12 +46,11 @@ def read_rig(options: argparse.Namespace) -> tuple[sg.LightRig, Array, Array, Ar
 
 def read_mesh(path: Path) -> tuple[Array, NDArray[np.integer]]:
     """Vertices and triangles: arrays of those names in an .npz, any other format by meshio."""
+    # A pipe without a writer would wait for ever.
+    if path.exists() and not path.is_file():
+        raise ValueError(f"file {path}: is not a file: give the name of one")
     if path.suffix == ".npz":
-        with np.load(path, allow_pickle=False) as held:
-            missing = [name for name in ("vertices", "triangles") if name not in held]
-            if missing:
-                raise ValueError(f"file {path}: has no array {missing[0]}: give vertices (n, 3) and triangles (m, 3)")
-            return held["vertices"], held["triangles"]
+        return read_npz(path)
     try:
         import meshio
     except ImportError:
@@ -76,6 +75,21 @@ def read_mesh(path: Path) -> tuple[Array, NDArray[np.integer]]:
     if not triangles:
         raise ValueError(f"file {path}: has no triangles or quads: give the surface of a body")
     return np.asarray(mesh.points, np.float64), np.concatenate(triangles)
+
+
+def read_npz(path: Path) -> tuple[Array, NDArray[np.integer]]:
+    """Arrays `vertices` and `triangles` of a file of numpy.savez. Raises ValueError naming the file."""
+    # What numpy raises on damaged archives is of a dozen types, of zipfile, zlib, ast and its own.
+    try:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as held:
+            missing = [name for name in ("vertices", "triangles") if name not in held]
+            if not missing:
+                return held["vertices"], held["triangles"]
+    except OSError:
+        raise
+    except Exception as error:
+        raise ValueError(f"file {path}: is damaged, or not of numpy.savez: {' '.join(str(error).split())}") from None
+    raise ValueError(f"file {path}: has no array {missing[0]}: give vertices (n, 3) and triangles (m, 3)")
 
 
 def write_table(path: Path, header: str, columns: str, table: Array) -> None:
