@@ -41,7 +41,8 @@ double rounding(const std::vector<Light>& lights, const glm::dvec3& point) {
     for (const glm::dvec3& e : object_irradiance_by_light(lights, point)) sum += largest(e);
     double beams = 0;
     for (const Light& light : lights) beams += beam_irradiance(light, point);
-    return 1e-6 * sum + 1e-13 * beams + 1e-300;
+    constexpr double denormal = 1e-250;  // products of numbers that have lost their digits
+    return 1e-6 * sum + 1e-13 * beams + denormal;
 }
 
 void check_culling(const std::vector<Light>& lights, const Box& box, double tolerance,
