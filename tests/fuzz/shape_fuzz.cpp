@@ -46,10 +46,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     medium.refractive_index = input.flag() ? 1.0 : input.near_range(1.0, 3.0);
     const auto mesh = mesh_from(input);
     if (!mesh) return 0;
-    // Many cells are slow, not wrong.
-    const double widest = 2 * box_of(mesh->vertices()).radius() * options.unit_mm;
-    if (options.cell_mm > 0 && widest < 1e4 && widest / options.cell_mm > 20) options.cell_mm = widest / 20;
     runs([&] {
+        // Many cells are slow, not wrong.
+        const bool is_empty = mesh->vertices().empty();
+        const double widest = is_empty ? 0.0 : 2 * box_of(mesh->vertices()).radius() * options.unit_mm;
+        if (options.cell_mm > 0 && widest < 1e4 && widest / options.cell_mm > 20)
+            options.cell_mm = widest / 20;
         const Shape shape(*mesh, medium, options);
         const std::vector<glm::dvec3> dark(mesh->vertices().size(), glm::dvec3(0.0));
         for (const glm::dvec3& e : shape.exitance(dark))

@@ -40,7 +40,7 @@ def lit(threads: int, progress: Call | None = None) -> np.ndarray:
 
 
 def recolored(threads: int, progress: Call | None = None) -> np.ndarray:
-    return shape(threads).light(LIGHTS, reentries=1).recolor(np.eye(3), progress=progress)
+    return shape(threads).light(2 * LIGHTS, reentries=1).recolor(np.eye(6)[:, :3], progress=progress)
 
 
 def relit(threads: int, progress: Call | None = None) -> np.ndarray:
@@ -143,9 +143,9 @@ def test_a_call_is_stopped_at_any_time_by_what_progress_returns_or_raises() -> N
         for threads in (1, 8):
             told: list[float] = []
             expected = call(threads, lambda done, told=told: told.append(done) or True)
-            assert told[0] == 0.0
-            assert told[-1] == 1.0
-            for stop in sorted({1, 2, max(1, len(told) // 2), max(1, len(told) - 1)}):
+            assert told == sorted(told)
+            assert 0.0 <= told[0] <= told[-1] <= 1.0
+            for stop in sorted({1, max(1, len(told) // 2)}):
                 seen: list[float] = []
 
                 def raising(done: float, seen: list[float] = seen, stop: int = stop) -> bool:
@@ -159,9 +159,9 @@ def test_a_call_is_stopped_at_any_time_by_what_progress_returns_or_raises() -> N
                     call(threads, raising)
                 except StoppedByHostError:
                     assert len(seen) == stop, "nothing is told after progress raised"
-                with pytest.raises(RuntimeError, match="cancelled"):
-                    call(threads, lambda done: False)
-            assert_same(call(threads), expected), name
+            with pytest.raises(RuntimeError, match="cancelled"):
+                call(threads, lambda done: False)
+            assert_same(call(threads), expected)
 
 
 def test_what_a_thread_refuses_reaches_the_caller_and_nothing_hangs() -> None:

@@ -1,4 +1,4 @@
-"""What public functions of the Python package are held against: a table of function, domain, reference and largest error."""
+"""What public functions are held against: a table of function, domain, reference and largest error."""
 
 from __future__ import annotations
 
