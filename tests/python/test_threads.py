@@ -139,7 +139,7 @@ class StoppedByHostError(Exception):
 
 def test_a_call_is_stopped_at_any_time_by_what_progress_returns_or_raises() -> None:
     """In the middle of each, on one thread and on eight, as often as it tells of itself; then it still works."""
-    for name, call in LONG.items():
+    for call in LONG.values():
         for threads in (1, 8):
             told: list[float] = []
             expected = call(threads, lambda done, told=told: told.append(done) or True)
