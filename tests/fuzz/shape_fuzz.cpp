@@ -3,6 +3,7 @@
 #include <skinglow/box.h>
 #include <skinglow/shape.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "fuzz_lights.h"
@@ -50,8 +51,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         // Many cells are slow, not wrong.
         const bool is_empty = mesh->vertices().empty();
         const double widest = is_empty ? 0.0 : 2 * box_of(mesh->vertices()).radius() * options.unit_mm;
-        if (options.cell_mm > 0 && widest < 1e4 && widest / options.cell_mm > 20)
-            options.cell_mm = widest / 20;
+        if (options.cell_mm > 0 && options.cell_mm < widest / 20)
+            options.cell_mm = std::min(widest / 20, 1000.0);
         const Shape shape(*mesh, medium, options);
         const std::vector<glm::dvec3> dark(mesh->vertices().size(), glm::dvec3(0.0));
         for (const glm::dvec3& e : shape.exitance(dark))

@@ -202,17 +202,3 @@ def test_two_python_threads_call_everything_at_once() -> None:
     for each in both:
         each.join()
     assert not failures, failures
-
-
-def test_two_python_threads_call_the_same_thing_at_once() -> None:
-    for name, call in PARALLEL.items():
-        expected = call(1)
-        results: list[Any] = []
-        both = [threading.Thread(target=lambda call=call, to=results: to.append(call(2))) for _ in range(2)]
-        for each in both:
-            each.start()
-        for each in both:
-            each.join()
-        assert len(results) == 2, name
-        for result in results:
-            assert_same(result, expected)

@@ -32,13 +32,14 @@ def unused():
 
 
 def require_used():
-    """After a load, which drops what is unused: all of ours leads to an object that shows it."""
+    """After a load: all of ours leads to an object that shows it, or to something that the next load drops."""
     users = bpy.data.user_map()
-    reached, ahead = set(), [one for one in users if isinstance(one, bpy.types.Object)]
     uses = {}
     for one, by in users.items():
         for user in by:
             uses.setdefault(user, set()).add(one)
+    # A load drops what has no user, and leaves what only that used for the next one.
+    reached, ahead = set(), [one for one in users if isinstance(one, bpy.types.Object) or not one.users]
     while ahead:
         one = ahead.pop()
         if one not in reached:
