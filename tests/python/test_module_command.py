@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 import skinglow as sg
 import trimesh
-from skinglow.__main__ import main, read_mesh
+from skinglow.__main__ import main
+from skinglow._mesh_files import read_mesh
 
 ROOT = Path(__file__).resolve().parents[2]
 RIG = ROOT / "tests" / "data" / "table1.json"

@@ -176,34 +176,20 @@ class FlightTracer {
         return each_lane([&](std::size_t k) { return 1 / above[k]; });
     }
 
-    /// How far a ray goes until no step has cells about it any more, mm.
-    /// @param start  in cells, from the center of the first
-    float leaving_grid(const glm::vec3& start, const glm::vec3& direction) const {
-        float cells = std::numeric_limits<float>::infinity();
-        for (int k = 0; k < 3; ++k) {
-            const float end = direction[k] > 0 ? static_cast<float>(grid_.extent()[k]) : -1.0F;
-            if (direction[k] != 0) cells = std::min(cells, (end - start[k]) / direction[k]);
-        }
-        return cells * grid_.cell() + step_;  // a step more than rounding may take away
-    }
-
     /// Shares what each step of a ray scatters out among the cells about its middle.
     void collect(const Ray& ray, float length, Lanes weight) {
         const float scale = 1 / grid_.cell();
         const glm::vec3 start = (ray.origin - grid_.low()) * scale - 0.5F;
         // In a clear medium a ray that hits nothing is thousands of times as long as the body.
-        const float leaving = leaving_grid(start, ray.direction);
-        float next = 0;
-        while (next < length && next <= leaving) {
-            const float done = next;
-            next += step_;
+        const float leaving =
+            grid_.leaving(start, ray.direction) * grid_.cell() + step_;  // rounding takes less
+        for (float done = 0; done < length && done <= leaving; done += step_) {
             const float step = std::min(step_, length - done);
             const Lanes left = weight * (step < step_ ? decay(step) : per_step_);
             const float center = step < step_ ? step_center(step) : center_;
             const glm::vec3 at = start + ray.direction * ((done + center) * scale);
-            const glm::vec3 low = glm::floor(at);
-            const glm::vec3 f = at - low;
-            const glm::ivec3 voxel(low);
+            const glm::ivec3 voxel(glm::floor(at));
+            const glm::vec3 f = at - glm::vec3(voxel);
             // All eight lie in the box where the first and the last do.
             const bool is_in_box = grid_.has(voxel) && grid_.has(voxel + 1);
             const std::size_t first = is_in_box ? grid_.linear(voxel) : 0;
