@@ -21,7 +21,7 @@ from inside.walk_files import LIBRARY, require_images_in_use, write_library
 #: What a walk goes on from: written last, so that it always names a complete file.
 STATE = "state.json"
 LOG = "parts.jsonl"
-#: Datablocks of ours that nothing uses before a load: none was seen in 1,300 edits. An edit of any of the fifty
+#: Datablocks of ours that nothing uses before a load: none was seen in 700 edits. An edit of any of the fifty
 #: kinds that leaves one whenever it is made goes beyond.
 UNUSED_AT_MOST, UNUSED_PER_EDIT = 1, 0.02
 
