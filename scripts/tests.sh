@@ -1,11 +1,12 @@
 # Sourced by scripts/test and tests/platforms/run.sh: how tests are run, each kind with a log of its own in build.
 
-# test_cpp PRESET: all C++ tests of that preset, and for release the benchmarks, which have to build.
+# test_cpp PRESET [PROGRAM...]: all C++ tests of that preset, or those of these programs, and for release the benchmarks, which
+# have to build.
 test_cpp() {
     say "building the C++ tests, preset $1"
     cmake --preset "$1" >"build/configure_$1.log" 2>&1 ||
         { tail -n 20 "build/configure_$1.log" >&2; fail "see build/configure_$1.log"; }
-    cmake --build "build/$1"
+    cmake --build "build/$1" ${2:+--target "${@:2}"}
     say "C++ tests, preset $1"
     ctest --preset "$1" --parallel "$(nproc)" >"build/ctest_$1.log" 2>&1 ||
         { grep -vE 'Start |Passed' "build/ctest_$1.log" >&2; fail "C++ tests failed; the whole log: build/ctest_$1.log"; }

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import io
 import json
 import os
 import sys
@@ -19,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import skinglow as sg
+from skinglow._mesh_files import read_mesh
 
 Array = NDArray[np.float64]
 
@@ -42,40 +42,6 @@ def read_rig(options: argparse.Namespace) -> tuple[sg.LightRig, Array, Array, Ar
         np.array(one if ours is None else ours) for one, ours in zip(held, given, strict=True)
     )
     return rig, point, coefficients, blood
-
-
-def read_mesh(path: Path) -> tuple[Array, NDArray[np.integer]]:
-    """Vertices and triangles: arrays of those names in an .npz, any other format by meshio."""
-    if path.suffix == ".npz":
-        with np.load(path, allow_pickle=False) as held:
-            missing = [name for name in ("vertices", "triangles") if name not in held]
-            if missing:
-                raise ValueError(f"file {path}: has no array {missing[0]}: give vertices (n, 3) and triangles (m, 3)")
-            return held["vertices"], held["triangles"]
-    try:
-        import meshio
-    except ImportError:
-        raise ValueError(
-            f"file {path}: only .npz is read without meshio: pip install 'skinglow[meshes]', or "
-            "numpy.savez(FILE, vertices=..., triangles=...)"
-        ) from None
-    if not path.is_file():
-        raise FileNotFoundError(2, "No such file", str(path))
-    # Of what is no mesh meshio tells on both streams, and then raises or exits.
-    said = io.StringIO()
-    try:
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
-            mesh = meshio.read(path)
-    except (Exception, SystemExit) as error:
-        reason = " ".join(said.getvalue().split()) or error
-        raise ValueError(f"file {path}: meshio cannot read it: {reason}") from None
-    triangles = [mesh.cells_dict["triangle"]] if "triangle" in mesh.cells_dict else []
-    if "quad" in mesh.cells_dict:
-        quads = mesh.cells_dict["quad"]
-        triangles += [quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]
-    if not triangles:
-        raise ValueError(f"file {path}: has no triangles or quads: give the surface of a body")
-    return np.asarray(mesh.points, np.float64), np.concatenate(triangles)
 
 
 def write_table(path: Path, header: str, columns: str, table: Array) -> None:

@@ -164,6 +164,23 @@ TEST(ImageFile, RefusesTruncatedFilesAtEveryLength) {
     }
 }
 
+TEST(ImageFile, PngThatEndsWithinAChunkIsRefusedByTheLastWholeOne) {
+    const ScratchFolder folder;
+    write_test_image(folder / "a.png", {2, 1, {"R", "G", "B"}, {0, 0, 0, 1, 1, 1}, OIIO::TypeUInt8});
+    const std::string whole = read_bytes(folder / "a.png");
+    folder.write("cut.png", whole.substr(0, whole.find("IDAT") + 6));
+    expect_refused<FileError>([&] { read_image(folder / "cut.png"); },
+                              {"cut.png", "after chunk", "ends before"});
+    folder.write("head.png", whole.substr(0, 12));
+    expect_refused<FileError>([&] { read_image(folder / "head.png"); }, {"head.png", "after its start"});
+    folder.write("no_end.png", whole.substr(0, whole.size() - 12));
+    expect_refused<FileError>([&] { read_image(folder / "no_end.png"); }, {"no_end.png", "after chunk IDAT"});
+    folder.write("cut.exr", whole.substr(0, whole.size() - 20));  // by content, whatever its name
+    expect_refused<FileError>([&] { read_image(folder / "cut.exr"); }, {"cut.exr", "ends before"});
+    folder.write("more.png", whole + "appended by someone");
+    EXPECT_EQ(read_image(folder / "more.png").width, 2);
+}
+
 TEST(ImageFile, RefusesHugeImagesByTheirHeader) {
     const ScratchFolder folder;
     folder.write("wide.pgm", "P5\n70000 1\n255\n");

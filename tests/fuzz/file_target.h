@@ -2,11 +2,14 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 
 #include "require.h"
 #include "rig_files/file_error.h"
@@ -39,9 +42,11 @@ inline std::filesystem::path written(const std::string& name, const std::uint8_t
     return path;
 }
 
-/// Runs an action that reads this file; a refusal must name the file. Returns whether it was read.
+/// Runs an action that reads this file; a refusal must name the file, and one of the places, unless there are none. Returns
+/// whether it was read.
 template <class Action>
-bool reads(const std::filesystem::path& path, const Action& action) {
+bool reads(const std::filesystem::path& path, const Action& action,
+           std::initializer_list<std::string_view> places = {}) {
     try {
         action();
         return true;
@@ -50,6 +55,9 @@ bool reads(const std::filesystem::path& path, const Action& action) {
         require(text.find(path.filename().string()) != std::string::npos,
                 "a refusal names the file: " + text);
         require(text.find('\n') == std::string::npos, "a refusal is one line: " + text);
+        const auto named = [&](std::string_view place) { return text.find(place) != std::string::npos; };
+        require(places.size() == 0 || std::any_of(places.begin(), places.end(), named),
+                "a refusal names the place: " + text);
         return false;
     }
 }

@@ -1,7 +1,9 @@
 // Light through small shapes of any medium or tissue: finite, no light from nothing, no more out than in, linear.
 
+#include <skinglow/box.h>
 #include <skinglow/shape.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "fuzz_lights.h"
@@ -33,8 +35,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     FuzzInput input(data, size);
     ShapeOptions options;
     options.cell_mm = input.near_range(0.8, 4.0);
-    if (options.cell_mm < 0.8 && options.cell_mm > 0)
-        options.cell_mm = 0.8;  // small cells are slow, not wrong
     options.max_thickness_mm = input.near_decades(1.0, 100.0);
     options.unit_mm = input.flag() ? 1.0 : input.near_decades(0.1, 10.0);
     options.surface = input.flag() ? SurfaceFinish::smooth : SurfaceFinish::rough;
@@ -48,6 +48,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto mesh = mesh_from(input);
     if (!mesh) return 0;
     runs([&] {
+        // Many cells are slow, not wrong.
+        const bool is_empty = mesh->vertices().empty();
+        const double widest = is_empty ? 0.0 : 2 * box_of(mesh->vertices()).radius() * options.unit_mm;
+        if (options.cell_mm > 0 && options.cell_mm < widest / 20)
+            options.cell_mm = std::min(widest / 20, 1000.0);
         const Shape shape(*mesh, medium, options);
         const std::vector<glm::dvec3> dark(mesh->vertices().size(), glm::dvec3(0.0));
         for (const glm::dvec3& e : shape.exitance(dark))

@@ -11,6 +11,7 @@ import pytest
 import skinglow as sg
 import trimesh
 from skinglow.__main__ import main
+from skinglow._mesh_files import read_mesh
 
 ROOT = Path(__file__).resolve().parents[2]
 RIG = ROOT / "tests" / "data" / "table1.json"
@@ -128,3 +129,30 @@ def test_refusals_are_one_line_that_names_the_thing(tmp_path: Path, capsys: pyte
     ):
         assert word in refused(capsys, *arguments), arguments
     assert not out.exists()
+
+
+def test_damaged_and_special_files_are_refused_at_once(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    """An archive cut at every length, and with any byte changed, is read or refused in one line."""
+    whole = ball(tmp_path / "ball.npz", 1.0).read_bytes()
+    bad, out = tmp_path / "bad.npz", tmp_path / "a.csv"
+    rng = np.random.default_rng(7)
+    cuts = [whole[: int(n)] for n in rng.integers(0, len(whole) - 1, 100)]
+    for content in [b"", b"PK\x03\x04", *cuts]:
+        bad.write_bytes(content)
+        assert "bad.npz" in refused(capsys, "thickness", bad, "-o", out)
+    for at in rng.integers(0, len(whole), 300):
+        bad.write_bytes(whole[:at] + bytes([rng.integers(256)]) + whole[at + 1 :])
+        try:
+            read_mesh(bad)
+        except ValueError as refusal:
+            assert "bad.npz" in str(refusal)
+    np.save(tmp_path / "plain.npy", np.zeros(3))
+    (tmp_path / "plain.npy").rename(tmp_path / "plain.npz")
+    assert "plain.npz" in refused(capsys, "thickness", tmp_path / "plain.npz", "-o", out)
+    for name in ("pipe.npz", "pipe.ply"):
+        os.mkfifo(tmp_path / name)
+        assert "is not a file" in refused(capsys, "thickness", tmp_path / name, "-o", out)
+        assert name in refused(capsys, "weights", tmp_path / name)
+    (tmp_path / "endless.npz").symlink_to("/dev/zero")
+    assert "is not a file" in refused(capsys, "thickness", tmp_path / "endless.npz", "-o", out)
+    assert "is not a file" in refused(capsys, "thickness", tmp_path, "-o", out)

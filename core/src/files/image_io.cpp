@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "files/image_file.h"
+#include "files/png_chunks.h"
 #include "rig_files/file_error.h"
 
 namespace skinglow::detail {
@@ -28,6 +29,7 @@ ImageInput::ImageInput(const std::filesystem::path& path) : path_(path) {
     if (!std::filesystem::exists(path, error)) refuse_file(path, "does not exist", "check the name");
     if (!std::filesystem::is_regular_file(path, error))
         refuse_file(path, "is not a file", "give the name of a file");
+    check_png_is_whole(path);
     OIIO::ImageSpec wish;
     wish.attribute("oiio:UnassociatedAlpha", 1);  // decoding must come before the multiplication by alpha
     input_ = OIIO::ImageInput::open(path.string(), &wish);

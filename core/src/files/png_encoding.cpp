@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <utility>
 
 #include "files/color_encoding.h"
 #include "files/number_bytes.h"
+#include "files/png_chunks.h"
 #include "rig_files/file_error.h"
 
 namespace skinglow::detail {
@@ -23,25 +23,14 @@ std::uint32_t big_word(const std::string& bytes, std::size_t at) {
 
 /// The chunks about color that stand before the pixels, by name.
 std::map<std::string, std::string> color_chunks(const std::filesystem::path& path) {
-    std::map<std::string, std::string> chunks;
-    std::ifstream file(path, std::ios::binary);
-    std::string start(8, '\0');
-    if (!file.read(start.data(), 8) || start != "\x89PNG\r\n\x1a\n") return chunks;
-    while (file.read(start.data(), 8)) {
-        const std::uint32_t size = big_word(start, 0);
-        const std::string name = start.substr(4);
-        if (name == "IDAT" || name == "IEND") break;
-        if (name != "cICP" && name != "iCCP" && name != "sRGB" && name != "gAMA" && name != "cHRM") {
-            file.seekg(std::streamoff{size} + 4, std::ios::cur);
-            continue;
-        }
-        std::string data(std::min<std::uint32_t>(size, 128),
-                         '\0');  // an ICC profile's name stands at its start
-        file.read(data.data(), static_cast<std::streamsize>(data.size()));
-        file.seekg(std::streamoff{size} - static_cast<std::streamoff>(data.size()) + 4, std::ios::cur);
-        chunks[name] = data;
+    constexpr std::size_t most = 128;  // an ICC profile's name stands at its start
+    constexpr std::array wanted = {"cICP", "iCCP", "sRGB", "gAMA", "cHRM"};
+    std::map<std::string, std::string> found;
+    PngChunks chunks(path);
+    for (auto name = chunks.next(); name && *name != "IDAT" && *name != "IEND"; name = chunks.next()) {
+        if (std::find(wanted.begin(), wanted.end(), *name) != wanted.end()) found[*name] = chunks.data(most);
     }
-    return chunks;
+    return found;
 }
 
 /// Coding-independent code points: ITU-T H.273.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 
 #include "numerics/job.h"
 #include "shape/flesh_cells.h"
@@ -142,6 +143,15 @@ void VoxelGrid::number_cells() {
             if (found == left_out || found == unknown) ++neighbors_[c].cuts;
         }
     }
+}
+
+float VoxelGrid::leaving(const glm::vec3& start, const glm::vec3& direction) const {
+    float cells = std::numeric_limits<float>::infinity();
+    for (int k = 0; k < 3; ++k) {
+        const float end = direction[k] > 0 ? static_cast<float>(extent_[k]) : -1.0F;
+        if (direction[k] != 0) cells = std::min(cells, (end - start[k]) / direction[k]);
+    }
+    return cells;
 }
 
 }  // namespace skinglow::detail

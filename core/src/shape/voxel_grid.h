@@ -49,6 +49,8 @@ class VoxelGrid {
         return voxel.x >= 0 && voxel.y >= 0 && voxel.z >= 0 && voxel.x < extent_.x && voxel.y < extent_.y &&
                voxel.z < extent_.z;
     }
+    /// How far a ray goes until no cell is about it any more; all in cells, `start` from the center of the first.
+    float leaving(const glm::vec3& start, const glm::vec3& direction) const;
     /// Number of the cell at a voxel, or one of the constants above.
     std::int32_t at(const glm::ivec3& voxel) const { return has(voxel) ? index_[linear(voxel)] : unknown; }
     glm::vec3 center_of(const glm::ivec3& voxel) const { return low_ + (glm::vec3(voxel) + 0.5F) * cell_; }

@@ -20,6 +20,35 @@ def datablocks():
     return {name: len(getattr(bpy.data, name)) for name in collections}
 
 
+def ours():
+    """Datablocks that the add-on makes, of this file."""
+    kinds = bpy.data.node_groups, bpy.data.images, bpy.data.materials, bpy.data.texts, bpy.data.meshes
+    return [one for kind in kinds for one in kind if "Skinglow" in one.name and not one.library]
+
+
+def unused():
+    """How many of ours nothing uses: Blender keeps what lost its last user until the file is loaded anew."""
+    return sum(not one.users for one in ours())
+
+
+def require_used():
+    """After a load: all of ours leads to an object that shows it, or to something that the next load drops."""
+    users = bpy.data.user_map()
+    uses = {}
+    for one, by in users.items():
+        for user in by:
+            uses.setdefault(user, set()).add(one)
+    # A load drops what has no user, and leaves what only that used for the next one.
+    reached, ahead = set(), [one for one in users if isinstance(one, bpy.types.Object) or not one.users]
+    while ahead:
+        one = ahead.pop()
+        if one not in reached:
+            reached.add(one)
+            ahead += uses.get(one, ())
+    left = [one.name for one in ours() if one not in reached]
+    assert not left, f"no object uses {left}"
+
+
 def resident_mb():
     gc.collect()
     pages = int(Path("/proc/self/statm").read_text().split()[1])

@@ -13,7 +13,7 @@ import bpy
 import skinglow_blender as sb
 
 from inside import second_addon
-from inside.leaks import datablocks, resident_mb
+from inside.leaks import datablocks, require_used, resident_mb, unused
 from inside.random_walk import Walk, begin_walk
 from inside.scenes import depsgraph
 from inside.walk_files import LIBRARY, require_images_in_use, write_library
@@ -21,6 +21,9 @@ from inside.walk_files import LIBRARY, require_images_in_use, write_library
 #: What a walk goes on from: written last, so that it always names a complete file.
 STATE = "state.json"
 LOG = "parts.jsonl"
+#: Datablocks of ours that nothing uses before a load: none was seen in 700 edits. An edit of any of the fifty
+#: kinds that leaves one whenever it is made goes beyond.
+UNUSED_AT_MOST, UNUSED_PER_EDIT = 1, 0.02
 
 
 class LongWalk(Walk):
@@ -30,6 +33,7 @@ class LongWalk(Walk):
         super().__init__(seed, folder)
         self.beside = beside
         self.sizes = []
+        self.steps_at_load = 0
 
     def settle(self):
         """Lets Blender evaluate what the other add-on edited in its handlers, until that edits nothing more."""
@@ -51,10 +55,18 @@ class LongWalk(Walk):
                 sb.update(graph)
             self.compare(graph)
 
+    def require_few_unused(self):
+        """An edit that leaves a datablock whenever it is made, or one that leaves several, is seen here."""
+        edits, left = len(self.done) - self.steps_at_load, unused()
+        self.steps_at_load = len(self.done)
+        assert left <= UNUSED_AT_MOST + edits * UNUSED_PER_EDIT, f"{left} of ours are unused after {edits} edits"
+
     def save_and_load(self):
+        self.require_few_unused()
         super().save_and_load()
         self.settle()
         require_images_in_use()
+        require_used()
         self.sizes.append((round(resident_mb(), 1), sum(datablocks().values())))
 
 
