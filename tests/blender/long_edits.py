@@ -135,7 +135,8 @@ def main(arguments: list[str]) -> int:
     walks = [LongWalk(host, beside) for beside in (False, True) for host in HOSTS if host.name in names]
     stuck = dict.fromkeys(walks, 0)  # parts in a row that failed
     while left := [walk for walk in walks if walk.steps() < wanted and stuck[walk] < GIVE_UP]:
-        for walk in left:
+        # Beside another add-on when all have walked alone.
+        for walk in [walk for walk in left if walk.beside == left[0].beside]:
             before = walk.steps()
             wrong = walk.take_part(min(PART, wanted - before))
             stuck[walk] = stuck[walk] + 1 if walk.steps() == before else 0
