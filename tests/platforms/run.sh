@@ -3,7 +3,7 @@
 # which are only looked at.
 # Usage: run.sh [PYTEST-ARGUMENT...]
 source "$(dirname "${BASH_SOURCE[0]}")/../../scripts/common.sh"
-source scripts/tests.sh
+source tests/runners.sh
 bash scripts/setup --tests
 bash scripts/setup --platforms
 bash scripts/build
