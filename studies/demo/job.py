@@ -21,7 +21,8 @@ MODES = ("existing", "paper")
 WEIGHTS = ("object", "surface")  # of mode physical
 # Lookups are dark at the 3 to 8 mm of an ear; shaders that use them scale them up by hand. So does the demo, by one
 # factor for both modes, which the page states.
-STRENGTH = 20.0
+STRENGTH = 40.0
+BULB_W = 2.0
 # Transmitted light is dark compared with direct light: the picture of mode physical is exposed for it.
 EXPOSURE_STOPS = 2.0
 ORANGE, BLUE = (1.0, 112 / 255, 69 / 255), (15 / 255, 64 / 255, 1.0)  # two lights of Table 1
@@ -79,7 +80,7 @@ class Studio:
     def show_physical(self) -> None:
         """Mode physical, W/m^2 unscaled, a light behind the ear: lit per object and per pixel."""
         stage.remove_lights()
-        studio.bulb(self.scene, self.ear, 2.0)
+        studio.bulb(self.scene, self.ear, BULB_W)
         bpy.context.view_layer.update()
         self.scene.view_settings.exposure = EXPOSURE_STOPS
         for weights in WEIGHTS:
@@ -140,11 +141,11 @@ def main(job: dict[str, Any]) -> dict[str, Any]:
         bpy.context.evaluated_depsgraph_get(), made.out / "povray_light_through", surface=False, compute_lut=True
     )
 
-    for name in ("Light1", "Light3"):
-        bpy.data.objects.remove(bpy.data.objects[name])
+    stage.remove_lights()
+    bulb = studio.bulb(made.scene, made.ear, BULB_W)
     for color, values in (("orange", ORANGE), ("blue", BLUE)):
         step(f"Cycles: {color} light behind the ear, {made.takes(4)}")
-        bpy.data.objects["Light2"].data.color = values
+        bulb.data.color = values
         made.show(color)
     step(f"Cycles: the rim lights, {made.takes(4)}")
     stage.add_rig(made.scene, job["rigs"]["rim"], made.center)
