@@ -8,10 +8,8 @@ found of each ear and lighting (`Difference`) goes to the results, by name.
 """
 
 import json
-import os
 import sys
 import time
-import traceback
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
@@ -24,6 +22,7 @@ import numpy as np  # noqa: E402
 import skinglow as sg  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
 from mathutils import Matrix, Vector  # noqa: E402
+from process_end import run_and_exit  # noqa: E402
 
 DATA = ROOT.parent / "shared" / "data" / "shape"
 MEDIUM = {"absorption": (0.032, 0.17, 0.48), "reduced_scattering": (0.74, 0.88, 1.01), "refractive_index": 1.0}
@@ -185,12 +184,4 @@ def main(results: str, size: str, *ears: str) -> None:
 
 
 if __name__ == "__main__":
-    code = 0
-    try:
-        main(*sys.argv[1:])
-    except BaseException:  # on a normal exit the 4.5 wheel would hang in a destructor
-        traceback.print_exc()
-        code = 1
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(code)
+    run_and_exit(main, *sys.argv[1:])

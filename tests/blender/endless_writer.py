@@ -26,6 +26,7 @@ from inside.scenes import (  # noqa: E402
     patch,
     render_settings,
 )
+from process_end import run_and_exit  # noqa: E402
 from skinglow_blender.show.lut_image import shown_image  # noqa: E402
 
 #: Of the light, by version.
@@ -120,14 +121,4 @@ def main() -> None:
         print("written", flush=True)
 
 
-code = 0
-try:
-    main()
-except BaseException:
-    import traceback
-
-    traceback.print_exc()
-    code = 3
-sys.stdout.flush()
-sys.stderr.flush()
-os._exit(code)
+run_and_exit(main)

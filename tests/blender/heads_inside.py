@@ -4,16 +4,15 @@ Usage: heads_inside.py RESULTS.json FOLDER FILE...
 """
 
 import json
-import os
 import sys
-import traceback
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT), str(ROOT / "blender_addon")]
+sys.path[:0] = [str(Path(__file__).parent), str(ROOT), str(ROOT / "blender_addon")]
 
 import bpy  # noqa: E402  isort: skip
 import numpy as np  # noqa: E402
+from process_end import run_and_exit  # noqa: E402
 
 from studies.heads import hero_job, loading, studio  # noqa: E402
 
@@ -45,12 +44,4 @@ def main(results: str, folder: str, *files: str) -> None:
     Path(results).write_text(json.dumps(found))
 
 
-try:
-    main(*sys.argv[1:])
-    code = 0
-except BaseException:  # on a normal exit the 4.5 wheel would hang in a destructor
-    traceback.print_exc()
-    code = 1
-sys.stdout.flush()
-sys.stderr.flush()
-os._exit(code)
+run_and_exit(main, *sys.argv[1:])

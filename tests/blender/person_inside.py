@@ -4,19 +4,18 @@ Usage: person_inside.py RESULTS.json FOLDER-OF-SHAPES PICTURES.npz
 """
 
 import json
-import os
 import sys
-import traceback
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT), str(ROOT / "blender_addon")]
+sys.path[:0] = [str(Path(__file__).parent), str(ROOT), str(ROOT / "blender_addon")]
 
 import bpy  # noqa: E402  isort: skip
 import numpy as np  # noqa: E402
 import skinglow_blender as sb  # noqa: E402
 from bpy_extras.object_utils import world_to_camera_view  # noqa: E402
 from mathutils import Vector  # noqa: E402
+from process_end import run_and_exit  # noqa: E402
 
 from studies import rendering  # noqa: E402
 from studies import scenes as stage  # noqa: E402
@@ -53,12 +52,4 @@ def main(results: str, shapes: str, pictures: str) -> None:
     Path(results).write_text(json.dumps(pixels))
 
 
-try:
-    main(*sys.argv[1:])
-    code = 0
-except BaseException:  # on a normal exit the 4.5 wheel would hang in a destructor
-    traceback.print_exc()
-    code = 1
-sys.stdout.flush()
-sys.stderr.flush()
-os._exit(code)
+run_and_exit(main, *sys.argv[1:])

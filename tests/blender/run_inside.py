@@ -18,6 +18,7 @@ if os.environ.get("SKINGLOW_SITE"):
     sys.path.append(os.environ["SKINGLOW_SITE"])
 
 import bpy  # noqa: E402
+from process_end import run_and_exit  # noqa: E402
 
 
 def main() -> None:
@@ -52,13 +53,4 @@ def require_current_names(caught: list[warnings.WarningMessage]) -> None:
     assert not ours, "deprecated names:\n" + "\n".join(sorted(ours))
 
 
-code = 0
-try:
-    main()
-except BaseException:
-    traceback.print_exc()
-    code = 3
-sys.stdout.flush()
-sys.stderr.flush()
-# The 4.5 wheel never comes back from an ordinary exit.
-os._exit(code)
+run_and_exit(main)
