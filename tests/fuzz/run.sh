@@ -31,20 +31,21 @@ for target in "${targets[@]}"; do parts=$((parts + $(share "$target"))); done
 each=$((seconds * jobs / parts))
 [ "$each" -gt 0 ] || fail "$seconds s are too few for ${#targets[@]} targets"
 
-# memory TARGET: megabytes that one allocation and all together may take. Pictures may have 2^26 pixels, whatever their file's size.
-memory() {
+# limits TARGET: megabytes that one allocation and all together may take, and seconds. Pictures may have 2^26 pixels, whatever their file's size.
+limits() {
     case $1 in
-    lut_exr | lut_png | compare) echo 1100 3000 ;;
-    *) echo 64 1000 ;;
+    lut_exr | lut_png | compare) echo 1100 3000 20 ;;
+    shape) echo 256 1000 120 ;; # a plate of 20 x 6 x 0.4 is 35,000 cells: 2 s without the sanitizers
+    *) echo 64 1000 20 ;;
     esac
 }
 
 # run_target TARGET ARGUMENT...: without as much memory in quarantine as is the default, whose first use takes most of the time.
 run_target() {
-    local name=$1 one all
+    local name=$1 one all longest
     shift
-    read -r one all < <(memory "$name")
-    ASAN_OPTIONS=malloc_context_size=8:quarantine_size_mb=16 "build/fuzz/tests/fuzz/${name}_fuzz" "$@" -timeout=20 \
+    read -r one all longest < <(limits "$name")
+    ASAN_OPTIONS=malloc_context_size=8:quarantine_size_mb=16 "build/fuzz/tests/fuzz/${name}_fuzz" "$@" -timeout="$longest" \
         -malloc_limit_mb="$one" -rss_limit_mb="$all" -artifact_prefix="build/fuzz/failed/$name/"
 }
 
@@ -72,7 +73,7 @@ fuzz() {
         return 1
     fi
 }
-export -f fuzz run_target memory share
+export -f fuzz run_target limits share
 export each
 say "${#targets[@]} targets, $each s or a multiple each, $jobs at a time"
 printf '%s\n' "${targets[@]}" | xargs -P "$jobs" -I {} bash -c 'fuzz {}' || fail "see build/fuzz/TARGET.log and build/fuzz/failed"
