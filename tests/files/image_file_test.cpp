@@ -148,6 +148,7 @@ TEST(ImageFile, RefusesFilesThatAreNoImage) {
 TEST(ImageFile, RefusesTruncatedFilesAtEveryLength) {
     const ScratchFolder folder;
     std::vector<float> values;
+    values.reserve(64 * 64 * 3);
     for (int i = 0; i < 64 * 64 * 3; ++i) values.push_back(static_cast<float>((i * 7919) % 1009) / 1009.0F);
     for (const std::string name : {"a.exr", "a.png"}) {
         const auto type = name == "a.exr" ? OIIO::TypeFloat : OIIO::TypeUInt16;
@@ -179,6 +180,20 @@ TEST(ImageFile, PngThatEndsWithinAChunkIsRefusedByTheLastWholeOne) {
     expect_refused<FileError>([&] { read_image(folder / "cut.exr"); }, {"cut.exr", "ends before"});
     folder.write("more.png", whole + "appended by someone");
     EXPECT_EQ(read_image(folder / "more.png").width, 2);
+}
+
+TEST(ImageFile, ExrWithAnAttributeBeyondTheFileIsRefusedByIt) {
+    const ScratchFolder folder;
+    TestImage image{2, 1, {"R", "G", "B"}, {0, 0, 0, 1, 1, 1}};
+    image.attributes = {{"Artist", "someone"}};
+    write_test_image(folder / "a.exr", image);
+    std::string bytes = read_bytes(folder / "a.exr");
+    const std::size_t type = bytes.find("Artist") + 7;
+    ASSERT_EQ(bytes.substr(type, 7), std::string("string\0", 7));
+    bytes.replace(type + 7, 4, "MMMM");  // 1.3 GB
+    folder.write("long.exr", bytes);
+    expect_refused<FileError>([&] { read_image(folder / "long.exr"); },
+                              {"long.exr", "attribute Artist", "longer than the file"});
 }
 
 TEST(ImageFile, RefusesHugeImagesByTheirHeader) {

@@ -66,7 +66,8 @@ const std::map<std::string, Maker> special_files = {
 void expect_all_refused(const std::string& name, const Reader& read) {
     const TimeLimit limit;
     for (const auto& [kind, make] : special_files) {
-        SCOPED_TRACE(name + " as " + kind);
+        std::string what = name;
+        SCOPED_TRACE(what.append(" as ").append(kind));
         const ScratchFolder folder;
         make(folder / name);
         expect_refused<FileError>([&] { read(folder / name); }, {"file ", name});

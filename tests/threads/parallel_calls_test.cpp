@@ -14,6 +14,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <numeric>
+#include <ranges>
 #include <string>
 #include <thread>
 #include <vector>
@@ -220,7 +221,7 @@ TEST(ParallelCalls, FromTwoThreadsAtOnceEachHaveTheirOwnAnswer) {
             for (const auto& [name, call] : calls) found[0][name] = call(2);
         });
         const std::jthread backward([&] {
-            for (auto one = calls.rbegin(); one != calls.rend(); ++one) found[1][one->first] = one->second(2);
+            for (const auto& [name, call] : std::views::reverse(calls)) found[1][name] = call(2);
         });
     }
     EXPECT_EQ(found[0], found[1]);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/exr_header.h"
 #include "files/image_file.h"
 #include "files/png_chunks.h"
 #include "rig_files/file_error.h"
@@ -30,6 +31,7 @@ ImageInput::ImageInput(const std::filesystem::path& path) : path_(path) {
     if (!std::filesystem::is_regular_file(path, error))
         refuse_file(path, "is not a file", "give the name of a file");
     check_png_is_whole(path);
+    check_exr_header(path);
     OIIO::ImageSpec wish;
     wish.attribute("oiio:UnassociatedAlpha", 1);  // decoding must come before the multiplication by alpha
     input_ = OIIO::ImageInput::open(path.string(), &wish);
