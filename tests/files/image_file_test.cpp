@@ -194,6 +194,15 @@ TEST(ImageFile, ExrWithAnAttributeBeyondTheFileIsRefusedByIt) {
     folder.write("long.exr", bytes);
     expect_refused<FileError>([&] { read_image(folder / "long.exr"); },
                               {"long.exr", "attribute Artist", "longer than the file"});
+    // OpenEXR would go on reading a header where these end by themselves.
+    for (const std::string type : {"chlist", "box2i", "float"}) {
+        bytes = read_bytes(folder / "a.exr");
+        const std::size_t length = bytes.find(type + std::string(1, '\0')) + type.size() + 1;
+        bytes[length] = static_cast<char>(bytes[length] + 1);
+        folder.write("other.exr", bytes);
+        expect_refused<FileError>([&] { read_image(folder / "other.exr"); },
+                                  {"other.exr", "attribute ", "not what its type has"});
+    }
 }
 
 TEST(ImageFile, RefusesHugeImagesByTheirHeader) {
