@@ -195,9 +195,9 @@ TEST(ImageFile, ExrWithAnAttributeBeyondTheFileIsRefusedByIt) {
     expect_refused<FileError>([&] { read_image(folder / "long.exr"); },
                               {"long.exr", "attribute Artist", "longer than the file"});
     // OpenEXR would go on reading a header where these end by themselves.
-    for (const std::string type : {"chlist", "box2i", "float"}) {
+    for (const std::string name : {"chlist", "box2i", "float"}) {
         bytes = read_bytes(folder / "a.exr");
-        const std::size_t length = bytes.find(type + std::string(1, '\0')) + type.size() + 1;
+        const std::size_t length = bytes.find(name + std::string(1, '\0')) + name.size() + 1;
         bytes[length] = static_cast<char>(bytes[length] + 1);
         folder.write("other.exr", bytes);
         expect_refused<FileError>([&] { read_image(folder / "other.exr"); },
