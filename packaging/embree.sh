@@ -5,17 +5,22 @@ embree_source="embree_$embree_version+dfsg.orig.tar.xz"
 embree_sha256=1b7c5b6144230ad81b92ece884a2017fbbb433bf5416a6fca9257e0109501c63
 
 # Skinglow traces rays against triangles, with occlusion filters, which Embree ignores without a word where they are not compiled in.
-# SSE 4.2 is the one instruction set of all machines that Blender runs on; AVX2, which nearly all have, is chosen by Embree itself
-# where the processor has it, with trees of eight branches and shadow rays in packets of eight.
+# SSE 4.2 is the one instruction set of all machines that Blender runs on; AVX2, which nearly all have, and AVX-512 are chosen by
+# Embree itself where the processor has them, with trees of eight branches and shadow rays in packets of eight. Of AVX-512 those parts
+# are named that Embree names for GCC; for clang it names a processor instead.
 embree_options=(-DEMBREE_STATIC_LIB=ON -DEMBREE_TASKING_SYSTEM=INTERNAL -DEMBREE_IGNORE_CMAKE_CXX_FLAGS=OFF -DEMBREE_MAX_ISA=NONE
-    -DEMBREE_ISA_SSE42=ON -DEMBREE_ISA_AVX2=ON -DEMBREE_RAY_PACKETS=ON -DEMBREE_FILTER_FUNCTION=ON)
-for name in ISA_{SSE2,AVX,AVX512} GEOMETRY_{QUAD,CURVE,SUBDIVISION,USER,INSTANCE,GRID,POINT} \
+    -DEMBREE_ISA_SSE42=ON -DEMBREE_ISA_AVX2=ON -DEMBREE_ISA_AVX512=ON -DEMBREE_RAY_PACKETS=ON -DEMBREE_FILTER_FUNCTION=ON
+    "-DFLAGS_AVX512=-mf16c -mavx2 -mfma -mlzcnt -mbmi -mbmi2 -mavx512f -mavx512dq -mavx512cd -mavx512bw -mavx512vl\
+ -mprefer-vector-width=256")
+for name in ISA_{SSE2,AVX} GEOMETRY_{QUAD,CURVE,SUBDIVISION,USER,INSTANCE,GRID,POINT} \
     STACK_PROTECTOR ISPC_SUPPORT TUTORIALS; do
     embree_options+=("-DEMBREE_$name=OFF")
 done
 embree_unused=(scene_user_geometry scene_instance scene_quad_mesh scene_curves scene_line_segments scene_grid_mesh scene_points
     rtcore_builder motion_derivative bezier_curve bspline_curve catmullrom_curve instance_intersector bvh_builder_hair
-    bvh_builder_hair_mb 'curve_intersector_virtual_[a-z0-9_]*')
+    bvh_builder_hair_mb bvh_builder_sah_mb bvh_builder_sah_spatial bvh_builder_twolevel bvh_builder_morton bvh_refit bvh_rotate
+    bvh_intersector_stream_bvh4 bvh_intersector_stream_bvh8 bvh_intersector_hybrid16_bvh4 bvh_intersector_hybrid16_bvh8
+    'curve_intersector_virtual_[a-z0-9_]*')
 
 unpack_embree() {
     rm -rf "$portable/embree_source"
@@ -23,7 +28,13 @@ unpack_embree() {
     tar -C "$portable/embree_source" --strip-components=1 --exclude='*/tutorials/*' -xJf "$portable/$embree_source"
     # What is off is compiled all the same, and takes most of the build's time; the linker says if something is missed.
     local lists=$portable/embree_source/kernels/CMakeLists.txt common=$portable/embree_source/kernels/common name
-    for name in "${embree_unused[@]}"; do sed -i "/ [a-z]*\/$name\.cpp/d" "$lists"; done
+    for name in "${embree_unused[@]}"; do sed -i "s| [a-z]*/$name\.cpp||" "$lists"; done
+    # Of the forms that triangles are stored in, scenes with RTC_SCENE_FLAG_ROBUST that never move have one, and of it rays singly, by
+    # four and by eight are asked for: a tenth of all, of which the rest would be half of our module.
+    local bvh=$portable/embree_source/kernels/bvh kept='Triangle4v\(Intersector1Pluecker\|Intersector[48]HybridPluecker\|SceneBuilderSAH\)\b'
+    sed -i "/IF_ENABLED_TRIS/{/$kept/!d}" "$bvh"/bvh[48]_factory.cpp "$bvh"/bvh_intersector{1,_hybrid[48]}_bvh[48].cpp
+    sed -i '/intersectors\.intersector\(16\|N\) *= BVH[48]Triangle4v/d; /SELECT_SYMBOL.*StreamPacketFallback/d' "$bvh"/bvh[48]_factory.cpp
+    sed -i '/Builder\* BVH[48].*\(Quantized\|Triangle4[^v]\|MeshBuilder\)/d' "$bvh/bvh_builder_sah.cpp"
     # What AVX without AVX2 would bring comes with AVX2 instead: a third copy of everything for processors of 2011 and 2012.
     sed -i 's/EQUAL \${ISA_LOWEST_AVX}/EQUAL ${AVX2}/; s/IF (\${ISA} EQUAL \${AVX})/IF (${ISA} EQUAL ${AVX2})/' "$lists"
     sed -i 's/defined(EMBREE_TARGET_AVX) ||/defined(EMBREE_TARGET_AVX2) ||/

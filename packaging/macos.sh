@@ -1,14 +1,14 @@
 # Sourced by scripts/package: what is particular to macOS 11 and later, on Apple's processors and Intel's.
 # Blender for Intel's ended with 4.5.
+# One instruction set, or Embree refuses to be static.
 if [ "$target" = macos-arm64 ]; then
     target_pythons=(3.11 3.13)
     export SKINGLOW_ARCH=arm64
-    # One instruction set, or Embree refuses to be static.
-    embree_more=(-DEMBREE_ISA_SSE42=OFF -DEMBREE_ISA_AVX2=OFF -DEMBREE_ISA_NEON=ON -DEMBREE_ISA_NEON2X=OFF)
+    embree_more=(-DEMBREE_ISA_SSE42=OFF -DEMBREE_ISA_AVX2=OFF -DEMBREE_ISA_AVX512=OFF -DEMBREE_ISA_NEON=ON -DEMBREE_ISA_NEON2X=OFF)
 else
     target_pythons=(3.11)
     export SKINGLOW_ARCH=x86_64
-    embree_more=()
+    embree_more=(-DEMBREE_ISA_AVX2=OFF -DEMBREE_ISA_AVX512=OFF)
 fi
 toolchain=$steps/portable_macos.cmake
 wheel_platform=macosx_11_0_$SKINGLOW_ARCH

@@ -71,8 +71,11 @@ def installed_version():
 
 def use():
     """In a new process: the core, the add-on by its own name, a skin, a render, and the way out."""
-    if addon_name() is None:
-        bpy.ops.wm.read_userpref()  # the bpy module starts without the user's preferences
+    if addon_name() is None:  # the bpy module starts without the user's preferences
+        if bpy.app.version[:2] == (4, 2):  # that module crashes when it reads them, with no add-on either
+            bpy.ops.preferences.addon_enable(module=f"bl_ext.user_default.{ADDON}")
+        else:
+            bpy.ops.wm.read_userpref()
     found = {"enabled": addon_name(), "search_path": sys.path[:]}
     import skinglow as sg
     import skinglow_blender as sb
