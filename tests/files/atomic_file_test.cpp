@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
@@ -109,14 +110,22 @@ TEST(AtomicFile, RefusesFoldersDevicesAndWhatCannotBeWritten) {
                               {"file /proc/a.csv", "cannot be written", "choose a folder"});
 }
 
+/// A child process that does `work` again and again. It ends with this one, and by any signal: in the background a
+/// shell has Ctrl-C ignored, and would have the child write for ever.
+template <class Work>
+pid_t start_endless(const Work& work) {
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
+    for (;;) work();
+}
+
 /// Whether a child process that does `work` again and again leaves nothing but whole files when it is ended
 /// by a signal.
 template <class Work>
 void expect_nothing_left(const fs::path& folder, int signal, const Work& work) {
-    const pid_t child = ::fork();
-    if (child == 0) {
-        for (;;) work();
-    }
+    const pid_t child = start_endless(work);
     while (fs::is_empty(folder)) ::usleep(100);
     ::usleep(static_cast<useconds_t>(2000 + 1000 * signal));
     ::kill(child, signal);
@@ -162,12 +171,7 @@ TEST(Folder, TwoWritersNeverMix) {
     };
     write("0");
     std::vector<pid_t> children;
-    for (const char* who : {"1", "2"}) {
-        children.push_back(::fork());
-        if (children.back() == 0) {
-            for (;;) write(who);
-        }
-    }
+    for (const char* who : {"1", "2"}) children.push_back(start_endless([&write, who] { write(who); }));
     for (int i = 0; i < 300; ++i) {
         const int descriptor =
             ::open(scene.c_str(), O_RDONLY | O_DIRECTORY);  // one writing's, whatever comes after
