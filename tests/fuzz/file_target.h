@@ -42,11 +42,11 @@ inline std::filesystem::path written(const std::string& name, const std::uint8_t
     return path;
 }
 
-/// Runs an action that reads this file; a refusal must name the file, and one of the places, unless there are none. Returns
+/// Runs an action that reads this file; a refusal must name the file, and one of the locations, unless there are none. Returns
 /// whether it was read.
 template <class Action>
 bool reads(const std::filesystem::path& path, const Action& action,
-           std::initializer_list<std::string_view> places = {}) {
+           std::initializer_list<std::string_view> locations = {}) {
     try {
         action();
         return true;
@@ -55,9 +55,11 @@ bool reads(const std::filesystem::path& path, const Action& action,
         require(text.find(path.filename().string()) != std::string::npos,
                 "a refusal names the file: " + text);
         require(text.find('\n') == std::string::npos, "a refusal is one line: " + text);
-        const auto named = [&](std::string_view place) { return text.find(place) != std::string::npos; };
-        require(places.size() == 0 || std::any_of(places.begin(), places.end(), named),
-                "a refusal names the place: " + text);
+        const auto named = [&](std::string_view location) {
+            return text.find(location) != std::string::npos;
+        };
+        require(locations.size() == 0 || std::any_of(locations.begin(), locations.end(), named),
+                "a refusal names the location: " + text);
         return false;
     }
 }

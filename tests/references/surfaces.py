@@ -103,7 +103,7 @@ def heat() -> float:
 
 
 @held_against(
-    "what a half-plane covers of a round lamp, in closed form",
+    "what a half-plane covers of a round light, in closed form",
     "Occluders",
     "Occluders.visible_fraction",
     "VisibleFraction",
