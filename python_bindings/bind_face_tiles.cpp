@@ -109,8 +109,8 @@ py::array_t<float> spread(const TileTargets& self, py::handle values, const py::
         pixels = py::array_t<float>(std::vector<std::size_t>{height, tile_image_width, columns});
     } else {
         // The very array, or none of its memory is written.
-        using Pixels = py::array_t<float, py::array::c_style>;
-        if (!py::isinstance<Pixels>(out) || !out.cast<py::array>().writeable())
+        using FloatArray = py::array_t<float, py::array::c_style>;
+        if (!py::isinstance<FloatArray>(out) || !out.cast<py::array>().writeable())
             refuse_argument("out", py::repr(py::type::of(out)).cast<std::string>(),
                             "a writable C-contiguous float32 array");
         pixels = out.cast<py::array_t<float>>();

@@ -10,7 +10,7 @@
 namespace skinglow::cli {
 namespace {
 
-struct Options {
+struct CompareArguments {
     std::string first;
     std::string second;
     std::string heat_map;
@@ -26,15 +26,15 @@ struct Options {
 
 constexpr std::array<const char*, 3> channel_names = {"red", "green", "blue"};
 
-nlohmann::ordered_json to_json(const ImageDifference& difference) {
+nlohmann::ordered_json difference_json(const ImageDifference& difference) {
     nlohmann::ordered_json object{{"rms", difference.rms}, {"max", difference.max}};
     object["psnr_db"] = difference.psnr ? nlohmann::ordered_json(*difference.psnr) : nlohmann::ordered_json();
     return object;
 }
 
 void print_as_json(const ImageComparison& comparison, std::optional<double> heat_map_white) {
-    nlohmann::ordered_json object = to_json(comparison.total);
-    for (std::size_t i = 0; i < 3; ++i) object[channel_names[i]] = to_json(comparison.channel[i]);
+    nlohmann::ordered_json object = difference_json(comparison.total);
+    for (std::size_t i = 0; i < 3; ++i) object[channel_names[i]] = difference_json(comparison.channel[i]);
     object["width"] = comparison.width;
     object["height"] = comparison.height;
     object["compared_pixels"] = comparison.compared_pixels;
@@ -69,7 +69,7 @@ void print_text(const ImageComparison& comparison, std::optional<double> heat_ma
 }
 
 /// @return the exit code
-int run(const Options& options) {
+int run_compare(const CompareArguments& options) {
     if (options.max_rms) require_not_negative("--max-rms", *options.max_rms);
     refuse_overwriting({options.heat_map, options.side_by_side},
                        {options.first, options.second, options.mask});
@@ -102,7 +102,7 @@ int run(const Options& options) {
 
 void add_compare_command(CLI::App& program, int& exit_code) {
     CLI::App* command = program.add_subcommand("compare", "How far two images are apart, in linear light");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<CompareArguments>();
     command->add_option("A", options->first, "An image")->required();
     command->add_option("B", options->second, "Another of the same size")->required();
     add_option(*command, "--heatmap", options->heat_map, "PNG",
@@ -125,7 +125,7 @@ void add_compare_command(CLI::App& program, int& exit_code) {
         "Example: skinglow compare blender.exr povray.exr --ignore-edges --heatmap difference.png --max-rms "
         "0.0039\n"
         "Exit code: 0, and with --max-rms 1 if the images are too far apart; 2 on an error.");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_compare(*options); });
 }
 
 }  // namespace skinglow::cli

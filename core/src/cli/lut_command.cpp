@@ -16,7 +16,7 @@
 namespace skinglow::cli {
 namespace {
 
-struct Options {
+struct LutArguments {
     RigOptions rig;
     TableOptions table;
     SkinOptions skin;
@@ -26,7 +26,7 @@ struct Options {
     std::string preview;
 };
 
-LutTable existing_table(const Options& options) {
+LutTable existing_table(const LutArguments& options) {
     if (options.rig.any_used() || options.table.has_base()) {
         throw std::invalid_argument(
             "--mode existing knows no lights and has a fixed table: leave out RIG, its options and --base");
@@ -35,7 +35,7 @@ LutTable existing_table(const Options& options) {
     return {six_gaussian_lookup(axis), {.max_thickness_mm = axis.max_thickness_mm()}};
 }
 
-LutTable paper_table(const Options& options) {
+LutTable paper_table(const LutArguments& options) {
     if (!options.rig.given()) throw std::invalid_argument("--mode paper needs lights: give a RIG file");
     const LightRig rig = options.rig.read();
     const BaseLut base = options.table.read_base();
@@ -48,7 +48,7 @@ LutTable paper_table(const Options& options) {
 }
 
 /// The light that leaves the skin, M(d) E; without lights that of a white light that brings 1 W/m^2.
-LutTable physical_table(const Options& options) {
+LutTable physical_table(const LutArguments& options) {
     const SkinLut skin = options.table.solve_skin(options.skin);
     glm::dvec3 irradiance(1.0);
     if (options.rig.given()) {
@@ -64,7 +64,7 @@ LutTable physical_table(const Options& options) {
             {.max_thickness_mm = skin.lut.axis().max_thickness_mm(), .light_weight = irradiance}};
 }
 
-void run(const Options& options) {
+void run_lut(const LutArguments& options) {
     const LutMode mode = options.table.mode(options.skin);
     refuse_overwriting({options.output, options.preview}, {options.rig.path(), options.table.base_path()});
     LutTable table = mode == LutMode::existing   ? existing_table(options)
@@ -92,7 +92,7 @@ void run(const Options& options) {
 
 void add_lut_command(CLI::App& program) {
     CLI::App* command = program.add_subcommand("lut", "Make a lookup table of light coming through skin");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<LutArguments>();
     options->rig.add_to(*command, RigNeed::optional);
     options->table.add_to(*command);
     options->skin.add_to(*command);
@@ -105,7 +105,7 @@ void add_lut_command(CLI::App& program) {
     command->footer(
         "Example: skinglow lut table1.json --max-thickness 8 -o ear.exr --preview ear.png\n"
         "Example: skinglow lut table1.json --mode physical --skin ear --melanin 0.1 -o ear.exr");
-    command->callback([options] { run(*options); });
+    command->callback([options] { run_lut(*options); });
 }
 
 }  // namespace skinglow::cli

@@ -21,7 +21,7 @@
 namespace skinglow::cli {
 namespace {
 
-struct Options {
+struct PovrayArguments {
     RigOptions rig;
     MeshOptions mesh;
     TableOptions table;
@@ -45,7 +45,7 @@ TriangleMesh turn_upright(const TriangleMesh& mesh, const std::string& up) {
 }
 
 /// A camera of this rotation that sees the whole mesh.
-PovrayCamera frame(const TriangleMesh& mesh, const Options& options) {
+PovrayCamera frame(const TriangleMesh& mesh, const PovrayArguments& options) {
     PovrayCamera camera;
     camera.width = options.width;
     camera.height = options.height;
@@ -64,7 +64,7 @@ PovrayCamera frame(const TriangleMesh& mesh, const Options& options) {
 }
 
 /// The glow from a table that was made before: it goes among the scene's pictures as it is.
-PovrayLut use_table(const Options& options, std::map<std::string, std::string>& pictures) {
+PovrayLut use_table(const PovrayArguments& options, std::map<std::string, std::string>& pictures) {
     if (options.table.any_used() || options.skin.any_used()) {
         throw std::invalid_argument(
             "--lut brings its own table: leave out --mode, --base, --size, --max-thickness and the skin's");
@@ -81,7 +81,7 @@ PovrayLut use_table(const Options& options, std::map<std::string, std::string>& 
 }
 
 /// The glow that the macros compute for themselves from the base or the skin, and the lights.
-PovrayLut compute_table(const Options& options) {
+PovrayLut compute_table(const PovrayArguments& options) {
     PovrayLut lut;
     lut.mode = options.table.mode(options.skin);
     if (lut.mode == LutMode::physical) {
@@ -108,7 +108,7 @@ const std::set<std::string> scene_files = {"camera.inc", "columns.inc", "lights.
                                            "scene.ini",  "scene.pov",   "skinglow.inc"};
 
 /// Nothing that is read may stand where a file of the scene will.
-void check_folder(const Options& options) {
+void check_folder(const PovrayArguments& options) {
     std::vector<std::filesystem::path> outputs;
     for (const std::string& name : scene_files)
         outputs.push_back(std::filesystem::path(options.folder) / name);
@@ -117,7 +117,7 @@ void check_folder(const Options& options) {
     refuse_overwriting(outputs, inputs);
 }
 
-void run(Options& options) {
+void run_povray(PovrayArguments& options) {
     const LightRig rig = options.rig.read();
     const TriangleMesh mesh = turn_upright(options.mesh.read(), options.up);
     check_folder(options);
@@ -149,7 +149,7 @@ void run(Options& options) {
 void add_povray_command(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("povray", "Write a POV-Ray scene of a mesh that glows by the rig's lights");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<PovrayArguments>();
     options->rig.add_to(*command, RigNeed::with_camera);
     options->mesh.add_to(*command, "--mesh");
     options->table.add_to(*command);
@@ -170,7 +170,7 @@ void add_povray_command(CLI::App& program) {
     command->footer(
         "Example: skinglow povray table1.json --mesh head.obj --unit 100 --group body --up y -o scene\n"
         "Example: skinglow povray table1.json --mesh head.obj --mode physical --skin ear -o scene");
-    command->callback([options] { run(*options); });
+    command->callback([options] { run_povray(*options); });
 }
 
 }  // namespace skinglow::cli

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Options {
+struct RigArguments {
     RigOptions rig;
     bool json = false;   ///< of weights
     std::string output;  ///< of rig
@@ -73,7 +73,7 @@ void print_text(const LightRig& rig, const ordered_json& report) {
     print_table(std::cout, rows);
 }
 
-void run(const Options& options) {
+void run_report(const RigArguments& options) {
     const LightRig rig = options.rig.read();
     const ordered_json report = report_of(rig);
     if (options.json) {
@@ -88,17 +88,17 @@ void run(const Options& options) {
 void add_weights_command(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("weights", "How much each light counts at a point (Eq. 2 and 3 of the paper)");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<RigArguments>();
     options->rig.add_to(*command, RigNeed::required);
     command->add_flag("--json", options->json, "Print JSON with every digit instead of a table");
     command->footer("Example: skinglow weights table1.json --point 0 0 0");
-    command->callback([options] { run(*options); });
+    command->callback([options] { run_report(*options); });
 }
 
 void add_rig_command(CLI::App& program) {
     CLI::App* command = program.add_subcommand(
         "rig", "Write lights as a rig file: a studio light of Blender's, or a rig with numbers changed");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RigArguments>();
     options->rig.add_to(*command, RigNeed::required);
     command->add_option("-o,--output", options->output, "Rig file to write (JSON, docs/rig_format.md)")
         ->required();

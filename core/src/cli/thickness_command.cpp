@@ -10,12 +10,12 @@
 namespace skinglow::cli {
 namespace {
 
-struct Options {
+struct ThicknessArguments {
     MeshOptions mesh;
     std::string output;
 };
 
-void run(Options& options) {
+void run_thickness(ThicknessArguments& options) {
     const TriangleMesh mesh = options.mesh.read();
     refuse_overwriting({options.output}, options.mesh.sources());
     std::vector<double> values = options.mesh.measure(mesh);
@@ -32,11 +32,11 @@ void run(Options& options) {
 void add_thickness_command(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("thickness", "How thick a body is at each vertex of its mesh, in mm");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ThicknessArguments>();
     options->mesh.add_to(*command, "MESH");
     add_option(*command, "-o,--output", options->output, "FILE", "File to write: .csv or .ply").required();
     command->footer("Example: skinglow thickness head.obj --unit 100 --group body -o thickness.csv");
-    command->callback([options] { run(*options); });
+    command->callback([options] { run_thickness(*options); });
 }
 
 }  // namespace skinglow::cli

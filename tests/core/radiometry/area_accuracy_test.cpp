@@ -15,7 +15,7 @@ using namespace skinglow;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Radiance times both cosines over the squared distance, over the light: cells of a square that is mapped to it are
 /// quartered until a cell and its quarters agree.

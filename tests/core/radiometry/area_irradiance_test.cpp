@@ -13,7 +13,7 @@ using namespace skinglow;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double tolerance = 1e-9;
 const glm::dvec3 down(0, 0, -1);
 

@@ -13,7 +13,7 @@ using namespace skinglow;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The same by brute force: rings around the center of the patch, each with the closed-form arc above the
 /// horizon left out, so that nothing is shared with the code under test.

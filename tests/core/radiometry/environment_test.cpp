@@ -17,7 +17,7 @@ using namespace skinglow;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 using Radiance = std::function<double(const glm::dvec3&)>;
 

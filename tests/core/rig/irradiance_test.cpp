@@ -17,7 +17,7 @@ using namespace skinglow;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 FlatLight light_at(LightKind kind, double power) {
     FlatLight light;

@@ -11,7 +11,7 @@ using namespace skinglow;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 FlatLight light_at(LightKind kind, const glm::dvec3& position, const glm::dvec3& direction = {0, 0, -1}) {
     FlatLight light;

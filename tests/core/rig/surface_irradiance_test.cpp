@@ -16,7 +16,7 @@ using namespace skinglow;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Surface {
     std::vector<glm::dvec3> points;

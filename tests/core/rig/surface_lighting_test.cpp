@@ -15,7 +15,7 @@ using namespace skinglow;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 const Box head{glm::dvec3(-0.1), glm::dvec3(0.1)};
 
 glm::dvec3 exact(const PreparedRig& lights, const glm::dvec3& point, const glm::dvec3& normal,
