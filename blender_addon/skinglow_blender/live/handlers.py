@@ -26,6 +26,17 @@ from .windows import follow_windows, is_shown, stop_following_windows, update_sh
 
 
 @guarded
+def before_depsgraph_update(_scene: bpy.types.Scene, _unused: None) -> None:
+    """Called before an edit is evaluated: tiles that it asks for are evaluated with it, and the update shows them.
+
+    Stored after it they would show the texels of those before, as Blender evaluates what a handler writes without a
+    report. In a window, where it may take a while, a timer stores them (windows.py).
+    """
+    if bpy.app.background and not SESSION.rendering and has_skins():
+        store_missing_tiles(skins_of_file())
+
+
+@guarded
 def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Called after an edit."""
     if not has_skins(depsgraph):
@@ -50,8 +61,6 @@ def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
         return
     if update_shown(depsgraph, SESSION.known.get(address)):
         update_windows_soon()
-    if bpy.app.background and not SESSION.rendering:
-        store_missing_tiles(obj for obj, _skin in SESSION.reading[1].skins)
 
 
 @guarded
@@ -167,6 +176,7 @@ def show_viewport() -> None:
 
 
 HANDLERS = (
+    ("depsgraph_update_pre", before_depsgraph_update),
     ("depsgraph_update_post", on_depsgraph_update),
     ("frame_change_post", on_frame_change),
     ("render_init", on_render_init),

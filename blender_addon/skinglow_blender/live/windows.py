@@ -88,10 +88,13 @@ def update_windows() -> float | None:
         for obj in skins:
             if mask_groups(obj):
                 store_masks(obj)
-        store_missing_tiles(skins)
-        for layer in shown_layers():
-            if layer.depsgraph is not None:
-                update_shown(layer.depsgraph)
+        depsgraphs = [layer.depsgraph for layer in shown_layers() if layer.depsgraph is not None]
+        if store_missing_tiles(skins):
+            # What is evaluated has the texels of before.
+            for depsgraph in depsgraphs:
+                depsgraph.update()
+        for depsgraph in depsgraphs:
+            update_shown(depsgraph)
     return None
 
 

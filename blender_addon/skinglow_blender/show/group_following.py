@@ -14,6 +14,7 @@ from .group_nodes import build_nodes, nodes_of
 from .group_sockets import replace_group
 from .image_pairs import SLOTS, delete_images
 from .lut_image import FROZEN_PROPERTY, ROWS, images_of, skin_groups
+from .skin_group import clear, remove_unused
 from .skin_material import skin_node, skin_nodes
 from .tile_image import TILES
 
@@ -89,7 +90,16 @@ def _precedence(node: bpy.types.Node) -> tuple[bool, bool, str]:
 
 
 def remove_orphans() -> None:
-    """Deletes lookup images that no group uses: Blender never does, because they point to each other."""
+    """Deletes groups that nothing uses, and lookup images that no group uses; right after a file is loaded.
+
+    Loading drops what has no user, but what that alone used only the next time: a material that was taken out of its
+    slot, then its group, then the inner ones of that. Images it never drops, because they point to each other.
+    """
+    for group in skin_groups():
+        if group.library is None and group.users == 0:
+            clear(group)
+            bpy.data.node_groups.remove(group)
+    remove_unused(list(bpy.data.node_groups))
     kinds = [(kind, group) for kind in (ROWS, TILES) for group in skin_groups()]
     shown = {image for kind, group in kinds for image in [kind.shown(group), *kind.all_of(group)]}
     ours = [i for i in bpy.data.images if i.library is None and getattr(i.skinglow, SLOTS[0]) is not None]

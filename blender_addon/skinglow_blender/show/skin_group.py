@@ -13,7 +13,7 @@ which the rows of different skins bleed into each other, and with 8-bit weights.
 A group whose skins are lit through their shape reads tiles instead (tile_group.py), or both, by what the object shows.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import NamedTuple
 
@@ -150,7 +150,12 @@ def clear(group: bpy.types.NodeTree) -> None:
     """Deletes a skin group's nodes, and the inner groups that nothing else uses."""
     inner = {n.node_tree for n in group.nodes if n.bl_idname == "ShaderNodeGroup" and n.node_tree is not None}
     group.nodes.clear()
-    for tree in inner:
+    remove_unused(inner)
+
+
+def remove_unused(trees: Iterable[bpy.types.NodeTree]) -> None:
+    """Deletes those of these trees that are inner groups and that nothing uses."""
+    for tree in trees:
         if tree.library is None and tree.users == 0 and tree.name.startswith(INNER_GROUPS):
             bpy.data.node_groups.remove(tree)
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import core
 from ..read.measured_geometry import unit_mm
-from ..read.mesh_reading import triangles_of
+from ..read.mesh_reading import triangles_of, vertices_of
 from ..read.shown_mesh import TEXEL_ATTRIBUTE
 from ..read.shown_mesh import corner_texels as texels_of
 from ..session import SESSION
@@ -28,7 +28,8 @@ __all__ = [
     "texels_of",
 ]
 
-#: Mesh property: digest of faces and corners, rows, number of tiles, spacing in mm, and what they were made for.
+#: Mesh property: digest of faces and corners, rows, number of tiles, spacing in mm, what they were made for, and the
+#: volume that the mesh enclosed.
 TILES_OF_MESH = "skinglow_tiles"
 #: Fraction of the vertices of a closed mesh with flesh behind them, at least.
 MIN_ENCLOSED = 0.5
@@ -79,6 +80,7 @@ def ensure_tiles(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
         "tiles": int(made.tiles),
         "spacing_mm": float(made.spacing_mm),
         "made_for": _made_for(mesh),
+        "volume": _volume(mesh),
     }
     if made.height == 0:
         enclosed = core().Shape(body, triangles, unit_mm=unit).report["enclosed"]
@@ -96,11 +98,19 @@ def is_current(mesh: bpy.types.Mesh) -> bool:
 
 
 def is_of_this_mesh(mesh: bpy.types.Mesh) -> bool:
-    """Whether a mesh has tiles, made for exactly its faces and corners."""
+    """Whether a mesh has tiles, made for exactly its faces and corners.
+
+    Blender 5.2 turns all faces around, with what is stored at their corners, where a negative scale is applied: the
+    mesh is mirrored at the same time, so outside is where it was, and the tiles stay those of its faces.
+    """
     stored, attribute = mesh.get(TILES_OF_MESH), mesh.attributes.get(TEXEL_ATTRIBUTE)
     if stored is None or attribute is None or (attribute.domain, attribute.data_type) != ("CORNER", "FLOAT_VECTOR"):
         return False
-    return stored["faces"] == _digest(*_faces(mesh))
+    sizes, corners = _faces(mesh)
+    if stored["faces"] == _digest(sizes, corners):
+        return True
+    is_turned = stored["faces"] == _digest(sizes, _turned(sizes, corners))
+    return is_turned and stored.get("volume", 0.0) * _volume(mesh) > 0.0
 
 
 def rows_of(mesh: bpy.types.Mesh) -> int:
@@ -128,6 +138,19 @@ def _faces(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     mesh.polygons.foreach_get("loop_total", sizes)
     mesh.loops.foreach_get("vertex_index", corners)
     return sizes, corners
+
+
+def _turned(sizes: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """The corners of the same faces seen from the other side: each keeps its first, and has the others in reverse."""
+    size, first = (np.repeat(each, sizes) for each in (sizes, np.cumsum(sizes) - sizes))
+    return corners[first + (first - np.arange(len(corners))) % size]
+
+
+def _volume(mesh: bpy.types.Mesh) -> float:
+    """The volume that a mesh encloses, about its middle where it is open; negative where it is inside out."""
+    vertices = vertices_of(mesh).astype(np.float64)
+    a, b, c = (vertices - vertices.mean(axis=0))[triangles_of(mesh)].transpose(1, 0, 2)
+    return float((a * np.cross(b, c)).sum() / 6.0)
 
 
 def _digest(sizes: np.ndarray, corners: np.ndarray) -> str:

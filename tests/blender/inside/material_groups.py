@@ -1,10 +1,12 @@
 """Skins whose materials have several node groups, as after appending: they come to rest on one."""
 
+import bpy
 import skinglow_blender as sb
 from skinglow_blender.show.group_following import follow_materials
 from skinglow_blender.show.skin_group import new_group
 from skinglow_blender.show.skin_material import skin_node
 
+from inside.leaks import unused
 from inside.scenes import add_light, assert_fresh, black_material, depsgraph, patch
 
 
@@ -24,3 +26,31 @@ def check_a_material_between_two_groups(_work):
     nodes = [skin_node(slot.material) for obj in (first, second) for slot in obj.material_slots]
     assert {node.node_tree for node in nodes} == {first.skinglow.group}
     assert_fresh(first, second)
+
+
+def check_groups_that_are_left_are_gone_at_the_next_load(work):
+    """Copies of a group, one that the materials of its skin left for the first one, and one of a material without use.
+
+    Loading drops the one, and the material; found by random edits, which saw what these used stay for another load.
+    """
+    add_light()
+    obj = patch(material=black_material("A"))
+    obj.data.materials.append(black_material("B"))
+    sb.make_skin(obj, thickness=[0.0, 1.0, 2.0, 3.0], weights="surface")
+    node = skin_node(obj.material_slots[1].material)
+    left, unshown = node.node_tree.copy(), node.node_tree.copy()
+    node.node_tree = left
+    skin_node(obj.material_slots[0].material.copy()).node_tree = unshown
+    depsgraph()
+    assert node.node_tree == obj.skinglow.group not in (left, unshown)
+    before = images()
+    path = str(work / "left.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert unused() == 0 and len([tree for tree in bpy.data.node_groups if tree.name.startswith("Skinglow")]) == 1
+    assert images() < before
+    assert sb.update(depsgraph()) == []
+
+
+def images():
+    return len([image for image in bpy.data.images if "Skinglow" in image.name])

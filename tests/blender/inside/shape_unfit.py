@@ -2,7 +2,6 @@
 
 import bpy
 import skinglow_blender as sb
-from skinglow_blender.commands.health import repair
 
 from inside.scenes import depsgraph, patch
 from inside.shape_scenes import assert_through, lobe, shape_skin, sun
@@ -53,24 +52,52 @@ def check_edited_faces(_work):
 
 
 def check_a_negative_scale_that_is_applied(_work):
-    """Blender 5.2 turns the faces around then: they are told as edited, and Repair lights them again."""
+    """Blender 5.2 turns the faces around then, which changes nothing of what they show."""
     sun()
     obj = lobe(levels=2)
     obj.scale = (-1.0, 1.0, 1.0)
     depsgraph()
     shape_skin(obj)
     assert_through(obj)
-    first = tuple(obj.data.polygons[0].vertices)
+    apply_scale()
+    assert is_through(obj) and not faults(obj), faults(obj)
+    assert_through(obj)
+
+
+def check_a_negative_scale_that_is_applied_in_another_mode(_work):
+    """The texels are asked for later: found by random edits in 5.2."""
+    sun()
+    obj = lobe(levels=2)
+    obj.scale = (-1.0, 1.0, 1.0)
+    depsgraph()
+    shape_skin(obj)
+    sb.make_skin(obj, mode="paper", thickness=[1.0] * len(obj.data.vertices))
+    apply_scale()
+    obj.skinglow.mode = "PHYSICAL"
+    depsgraph()
+    assert is_through(obj) and not faults(obj), faults(obj)
+    assert_through(obj)
+
+
+def apply_scale():
     bpy.ops.object.transform_apply(location=False, rotation=False, scale=True)
     depsgraph()
-    is_turned = tuple(obj.data.polygons[0].vertices) != first
-    assert is_through(obj) != is_turned and ("edited" in faults(obj)) == is_turned, faults(obj)
-    if is_turned:
-        repair(obj)
+
+
+def check_a_mesh_that_is_turned_inside_out(_work):
+    """By the same order of corners, but flesh is elsewhere: that is told."""
+    sun()
+    obj = lobe(levels=2)
+    shape_skin(obj)
+    for is_turned in (True, False):
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.flip_normals()
+        bpy.ops.object.mode_set(mode="OBJECT")
         depsgraph()
-        sb.update(depsgraph())
-        assert not faults(obj)
-        assert_through(obj)
+        assert ("edited" in faults(obj)) == is_turned, faults(obj)
+    assert is_through(obj)
+    assert_through(obj)
 
 
 def check_lighting_is_chosen_and_left(_work):

@@ -2,8 +2,6 @@
 
 import bpy
 import numpy as np
-import skinglow_blender as sb
-from skinglow_blender.commands.health import repair
 from skinglow_blender.read.scene_reading import ROW_PROPERTY
 from skinglow_blender.thickness import thickness_attribute
 
@@ -41,13 +39,9 @@ class MeshEdits(SceneEdits):
             return
         depsgraph()
         before = obj[ROW_PROPERTY][0] * self.thickness(obj)
-        is_mirrored = obj.matrix_world.determinant() < 0.0
         bpy.ops.object.transform_apply(location=False, rotation=False, scale=True)
         depsgraph()
         np.testing.assert_allclose(obj[ROW_PROPERTY][0] * self.thickness(obj), before, rtol=1e-4)
-        if is_mirrored and sb.health(obj):
-            repair(obj)  # Blender 5.2 turned the faces around, which is told
-            depsgraph()
 
     def thickness(self, obj):
         values, known = thickness_attribute.read(obj.data)
