@@ -21,7 +21,8 @@ def build_guide_scene(job: dict[str, Any]) -> Ear:
     head.name = "Head"
     portrait.mask_glow(head)
     scene = bpy.context.scene
-    studio.settings(scene, 640, 640, 64)
+    # Debian's Blender has no denoiser.
+    studio.settings(scene, 640, 640, 64 if studio.can_denoise() else 256)
     scene.cycles.preview_samples = 32
     scene.cycles.use_preview_denoising = studio.can_denoise()
     studio.world(scene)
