@@ -77,9 +77,18 @@ build_wheel() {
 # The source as pip takes it, in build/packages.
 build_source_package() {
     rm -f "$packages"/skinglow-*.tar.gz
-    "$1" -c 'import sys; from scikit_build_core.build import build_sdist; build_sdist(sys.argv[1])' "$packages" \
+    # From a copy of what is in it: the builder looks at each file of its folder, and build holds a hundred thousand.
+    local copy parts
+    copy=$(mktemp -d)
+    parts=$("$1" -c 'from scikit_build_core._compat import tomllib
+included = tomllib.load(open("pyproject.toml", "rb"))["tool"]["scikit-build"]["sdist"]["include"]
+print(*(path.strip("/").removesuffix("/**") for path in included))')
+    # shellcheck disable=SC2086  # a list of names
+    cp -a .gitignore $parts "$copy"
+    (cd "$copy" && "$1" -c 'import sys; from scikit_build_core.build import build_sdist; build_sdist(sys.argv[1])' "$packages") \
         >"$portable/source_package.log" 2>&1 ||
         { tail -n 20 "$portable/source_package.log" >&2; fail "the source package could not be made"; }
+    rm -rf "$copy"
 }
 
 # The small wheel by which scripts find the extension, for any Python, in build/portable/script_access.
