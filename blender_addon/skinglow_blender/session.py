@@ -50,6 +50,8 @@ class Session:
         self.known: dict[int, Known] = {}
         #: Whether the file was seen to have no skin; None: not looked at since data was added.
         self.has_none: bool | None = None
+        #: Whether a skin may have become one whose mesh lacks tiles since all were looked at.
+        self.may_lack_tiles = True
         #: Material to the skin node groups it had when it was last reported to have changed.
         self.material_groups: dict[str, frozenset[str]] = {}
         #: Keys of the objects that skins take their reference point from.

@@ -15,6 +15,7 @@ from bpy.props import (
     StringProperty,
 )
 
+from .session import SESSION
 from .setting_choices import BASES, LIGHTINGS, MODES, REFERENCES
 from .tissue_presets import PRESETS, preset_of_sliders, set_sliders
 
@@ -23,6 +24,12 @@ def _changed(settings: "SkinSettings", _context: bpy.types.Context) -> None:
     """Tags the object: Blender does not report changes of add-on properties to the handlers."""
     if settings.enabled:
         settings.id_data.update_tag(refresh={"OBJECT"})
+
+
+def _lit_otherwise(settings: "SkinSettings", context: bpy.types.Context) -> None:
+    """The skin may be lit through its shape now, which needs tiles."""
+    SESSION.may_lack_tiles = True
+    _changed(settings, context)
 
 
 class SkinSettings(bpy.types.PropertyGroup):
@@ -39,14 +46,14 @@ class SkinSettings(bpy.types.PropertyGroup):
         name="Mode",
         items=MODES,
         default="PHYSICAL",
-        update=_changed,
+        update=_lit_otherwise,
         description="How the transmitted light is computed",
     )
     weights: EnumProperty(
         name="Lighting",
         items=LIGHTINGS,
         default="OBJECT",
-        update=_changed,
+        update=_lit_otherwise,
         description="Whether the lights are evaluated once per object, at each pixel, or solved in the flesh "
         "(Physical mode)",
     )

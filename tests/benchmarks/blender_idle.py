@@ -66,6 +66,12 @@ def read_list(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
         update.id  # noqa: B018
 
 
+def before_and_after(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    """All of the add-on's handlers of an edit."""
+    handlers.before_depsgraph_update(scene, None)
+    handlers.on_depsgraph_update(scene, depsgraph)
+
+
 def nothing(_scene: bpy.types.Scene, _depsgraph: bpy.types.Depsgraph) -> None:
     pass
 
@@ -78,7 +84,7 @@ def measure(build: Callable[[], None], skin: bool) -> dict[str, float]:
         sb.make_skin(quad("Skin"), thickness=[1.0] * 4)
     empty = link(bpy.data.objects.new("Empty", None))
     bpy.context.view_layer.update()
-    kinds = {"handlers": handlers.on_depsgraph_update, "list": read_list, "nothing": nothing}
+    kinds = {"handlers": before_and_after, "list": read_list, "nothing": nothing}
     spent: dict[str, list[float]] = {kind: [] for kind in (*kinds, "blender")}
     for i in range(len(kinds) * EDITS):
         kind, handler = list(kinds.items())[i % len(kinds)]
@@ -127,7 +133,7 @@ def other_edits() -> dict[str, float]:
     found = {}
     for name, edit in edits.items():
         event = "frame_change_post" if name == "frame" else "depsgraph_update_post"
-        handler = handlers.on_frame_change if name == "frame" else handlers.on_depsgraph_update
+        handler = handlers.on_frame_change if name == "frame" else before_and_after
         spent: list[float] = []
 
         def timed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:

@@ -32,8 +32,8 @@ def before_depsgraph_update(_scene: bpy.types.Scene, _unused: None) -> None:
     Stored after it they would show the texels of those before, as Blender evaluates what a handler writes without a
     report. In a window, where it may take a while, a timer stores them (windows.py).
     """
-    if bpy.app.background and not SESSION.rendering and has_skins():
-        store_missing_tiles(skins_of_file())
+    if bpy.app.background and SESSION.may_lack_tiles and not SESSION.rendering:
+        store_missing_tiles(skins_of_file() if has_skins() else ())
 
 
 @guarded
@@ -52,6 +52,7 @@ def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
     # Asked last: most edits concern no skin.
     if not any(changes) or not is_shown(depsgraph):
         return
+    SESSION.may_lack_tiles |= changes.objects or bool(changes.reshaped)
     moved = changes.materials and follow_materials()
     follow_weights(changes.reshaped)
     known_images = [key for key in changes.images if world_image.is_known(key)]
@@ -131,6 +132,7 @@ def on_undo(_first: Any, _second: Any) -> None:  # noqa: ANN401
 def on_import(_context: Any, _unused: None) -> None:  # noqa: ANN401
     """Called after data was appended, linked or pasted: skins may have come with it."""
     SESSION.has_none = None
+    SESSION.may_lack_tiles = True
 
 
 def follow_weights(skins: Iterable[bpy.types.Object]) -> None:

@@ -46,7 +46,11 @@ def store_missing_tiles(skins: Iterable[bpy.types.Object]) -> bool:
 
     Those whose faces were edited are left to Repair, which measures them too. Returns whether any was given some.
     """
-    return any([_store(obj) for obj in skins])
+    skins = list(skins)
+    stored = any([_store(obj) for obj in skins])
+    # In Edit Mode they are stored when it is left.
+    SESSION.may_lack_tiles = any(obj.mode == "EDIT" for obj in skins)
+    return stored
 
 
 def _store(obj: bpy.types.Object) -> bool:

@@ -18,6 +18,7 @@ from ..read.measured_size import (
     mesh_scale,
     samples_of,
 )
+from ..session import SESSION
 
 THICKNESS_ATTRIBUTE = "skinglow_thickness"
 #: 1 where the thickness is known. Blender fills both attributes with 0 at vertices that they were not written for.
@@ -173,6 +174,7 @@ def store(
 
 
 def _write(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
+    SESSION.may_lack_tiles = True
     attribute = mesh.attributes.get(name)
     if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", "FLOAT"):
         mesh.attributes.remove(attribute)

@@ -4,7 +4,7 @@ from contextlib import contextmanager
 
 import bpy
 import skinglow_blender as sb
-from skinglow_blender.live import live_update
+from skinglow_blender.live import handlers, live_update
 
 from inside.scenes import add_light, assert_fresh, assert_shows, black_material, depsgraph, link, paper_table, patch
 
@@ -12,18 +12,22 @@ from inside.scenes import add_light, assert_fresh, assert_shows, black_material,
 @contextmanager
 def counted_readings():
     """The number of times that the scene is read, in a list, and that all its objects are looked at."""
-    count, read_scene = [0, 0], live_update.read_scene
+    count, read_scene, look_for_skins = [0, 0], live_update.read_scene, handlers.skins_of_file
 
     def counting(graph, known=None):
         count[0] += 1
         count[1] += known is None
         return read_scene(graph, known)
 
-    live_update.read_scene = counting
+    def looking():
+        count[1] += 1
+        return look_for_skins()
+
+    live_update.read_scene, handlers.skins_of_file = counting, looking
     try:
         yield count
     finally:
-        live_update.read_scene = read_scene
+        live_update.read_scene, handlers.skins_of_file = read_scene, look_for_skins
 
 
 def add_empty(name="Empty"):
@@ -91,7 +95,9 @@ def check_what_changes_by_itself_is_read_alone(_work):
     key.keyframe_insert("location", frame=1)
     key.location = (0.0, 1.0, 2.0)
     key.keyframe_insert("location", frame=5)
-    depsgraph()
+    for step in range(2):
+        empty.location.y = step
+        depsgraph()
     with counted_readings() as count:
         for number, edit in enumerate(
             (
