@@ -10,6 +10,8 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any
 
+import bpy
+
 from . import batch, bundled_core, farm, preferences, scene_settings, skin_settings
 from .batch import BatchResult, BatchStep, Rig, povray_comparison
 from .batch.povray_comparison import PovrayComparison
@@ -118,10 +120,16 @@ _registered = False
 
 
 def register() -> None:
-    """Registers the add-on; a second call does nothing."""
+    """Registers the add-on; a second call does nothing.
+
+    Raises RuntimeError where another copy of it is on, as an extension beside a legacy add-on: both would answer each
+    edit, and turning one off would take the settings of skins from the other.
+    """
     global _registered
     if _registered:
         return
+    if "skinglow" in bpy.types.Object.bl_rna.properties:
+        raise RuntimeError("another copy of Skinglow is on: turn that off first, in Preferences > Add-ons")
     for part in _PARTS:
         part.register()
     _registered = True

@@ -1,6 +1,8 @@
 """Files that are saved and rendered where the add-on is off; and color management without Blender's own names."""
 
+import importlib
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -10,7 +12,7 @@ import numpy as np
 import skinglow as sg
 import skinglow_blender as sb
 
-from inside.scenes import add_light, black_material, camera_above, patch, read_exr, render_settings
+from inside.scenes import add_light, assert_fresh, black_material, camera_above, patch, read_exr, render_settings
 
 RENDER = """
 import bpy, os
@@ -88,6 +90,34 @@ except sb.SkinError as error:
 sys.stdout.flush()
 os._exit(0)
 """
+
+
+def check_a_second_copy_is_refused(work):
+    """As an extension and a legacy add-on, both turned on."""
+    add_light()
+    obj = patch(material=black_material())
+    sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
+    shutil.copytree(Path(sb.__file__).parent, work / "skinglow_copy")
+    sys.path.insert(0, str(work))
+    try:
+        other = importlib.import_module("skinglow_copy")
+        handlers = len(bpy.app.handlers.depsgraph_update_post)
+        try:
+            other.register()
+        except RuntimeError as error:
+            assert "another copy of Skinglow is on" in str(error)
+        else:
+            raise AssertionError("a second copy was registered")
+        other.unregister()
+        assert len(bpy.app.handlers.depsgraph_update_post) == handlers
+        assert_fresh(obj)
+        sb.unregister()
+        other.register()
+        other.unregister()
+        sb.register()
+        assert_fresh(obj)
+    finally:
+        sys.path.remove(str(work))
 
 
 def made_with_config(work, *, has_data):
