@@ -12,7 +12,7 @@ import bpy
 
 from .. import blender_version
 from ..errors import SkinError, core
-from .rig_lights import added_lights
+from .rig_lights import ADDED, added_lights
 
 FILE_SUFFIXES = (".json", ".sl")
 
@@ -213,4 +213,4 @@ def check_lights(ready: ReadyRig, scene: bpy.types.Scene, lit: set[str]) -> None
 
 
 def _added_names(scene: bpy.types.Scene) -> set[str]:
-    return {obj.name for obj in scene.collection.objects if "skinglow_rig" in obj}
+    return {obj.name for obj in scene.collection.objects if ADDED in obj}
