@@ -56,6 +56,8 @@ class Session:
         self.material_groups: dict[str, frozenset[str]] = {}
         #: Keys of the objects that skins take their reference point from.
         self.reference_objects: frozenset[str] = frozenset()
+        #: Addresses of the depsgraphs of layers that were not shown during an undo, nor evaluated anew since.
+        self.undone_graphs: set[int] = set()
         #: Number of updates, one per edit: anything derived at a lower number may be out of date.
         self.updates = 0
         #: The core's lights made from the last reading.
@@ -102,6 +104,7 @@ class Session:
             "interrupted",
             "signals",
             "updates",
+            "undone_graphs",
             "shapes",
             "shown_meshes",
             "shape_worker",

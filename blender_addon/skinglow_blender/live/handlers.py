@@ -19,6 +19,7 @@ from ..table import occlusion
 from . import shape_answers, shape_update
 from .file_upgrade import upgrade
 from .guard import REPORTS_IMPORTS, guarded, has_skins
+from .hidden_layers import is_of_before, remember_hidden
 from .live_update import update_scene
 from .relevant_updates import changes_of
 from .shape_tiles import store_missing_tiles
@@ -53,6 +54,9 @@ def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
     if not any(changes) or not is_shown(depsgraph):
         return
     SESSION.may_lack_tiles |= changes.objects or bool(changes.reshaped)
+    if is_of_before(depsgraph):
+        update_windows_soon()
+        return
     moved = changes.materials and follow_materials()
     follow_weights(changes.reshaped)
     known_images = [key for key in changes.images if world_image.is_known(key)]
@@ -75,6 +79,9 @@ def on_frame_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> N
         return
     known = SESSION.known.pop(depsgraph.as_pointer(), None)
     if not is_shown(depsgraph):
+        return
+    if is_of_before(depsgraph):
+        update_windows_soon()
         return
     if known is not None and changes_of(depsgraph, known, is_frame=True).objects:
         known = None
@@ -123,6 +130,7 @@ def on_undo(_first: Any, _second: Any) -> None:  # noqa: ANN401
     The skins are tagged, so Blender evaluates and reports them. Evaluating here, before Blender does, can crash it.
     """
     SESSION.forget()
+    remember_hidden()
     for obj in skins_of_file():
         obj.update_tag(refresh={"OBJECT"})
     update_windows_soon()
@@ -152,6 +160,7 @@ def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
     """Called after loading a file. Evaluations during loading are not reported, so everything is updated here."""
     shape_update.forget()
     SESSION.forget()
+    SESSION.undone_graphs.clear()
     follow_windows()  # loading clears subscriptions
     upgrade()
     separate_copies()

@@ -21,6 +21,7 @@ from ..table.skin_tables import Table, compute_table, signature_of
 from ..table.texel_mapping import texels_per_mm
 from . import shape_answers, shape_update, waiting
 from .frozen_update import follow_frozen, mark_of
+from .hidden_layers import evaluate_anew
 from .needed_nodes import fit_nodes, is_fixed, make_room
 from .rebuilt import Rebuilt
 from .shape_tiles import hide_tiles, write_tiles
@@ -38,6 +39,7 @@ def update_scene(
     left_out  whether another view layer decides what a skin shows
     known     what an earlier reading of this depsgraph found, if that still holds; None: every object is looked at
     """
+    evaluate_anew(depsgraph)
     SESSION.updates += 1
     SESSION.interrupted = False
     faults: dict[str, str] = {}
