@@ -4,13 +4,13 @@ import bpy
 import numpy as np
 import skinglow_blender as sb
 from mathutils import Matrix
-from skinglow_blender.commands.health import quick_faults
 from skinglow_blender.show.lut_image import images_of
 from skinglow_blender.show.skin_material import remove_from_material
 from skinglow_blender.thickness.thickness_attribute import KNOWN_ATTRIBUTE
 
 from inside.bad_input import refused
 from inside.measured_as_shown import plate
+from inside.panel_faults import panel
 from inside.scenes import add_light, camera_above, depsgraph, link, render_settings
 
 
@@ -58,27 +58,37 @@ def add_solidify(obj):
     obj.modifiers.new("Thicker", "SOLIDIFY").thickness = 0.001
 
 
+def add_decimate(obj):
+    obj.modifiers.new("Fewer", "DECIMATE").ratio = 0.9
+
+
 FAULTS = {
-    delete_group: ("node group was deleted", True),
-    replace_material: ("None of its materials has the Skinglow node", True),
-    remove_node: ("None of its materials has the Skinglow node", True),
-    delete_attribute: ("thickness is not known", True),
-    sculpt: ("mesh was edited", True),
-    sculpt_one: ("mesh or its modifiers were edited", False),
-    add_solidify: ("mesh or its modifiers were edited", False),
+    delete_group: "node group was deleted",
+    replace_material: "None of its materials has the Skinglow node",
+    remove_node: "None of its materials has the Skinglow node",
+    delete_attribute: "thickness is not known",
+    sculpt: "mesh was edited",
+    sculpt_one: "mesh or its modifiers were edited",
+    add_solidify: "mesh or its modifiers were edited",
+    add_decimate: "mesh or its modifiers were edited",
 }
 
 
 def check_each_fault_is_told_and_repaired(_work):
-    for break_it, (words, is_quick) in FAULTS.items():
+    """By health and by the panel, which had shown that all was well."""
+    for break_it, words in FAULTS.items():
         obj = healthy_skin()
+        assert panel(obj) == ("", [])
         break_it(obj)
         depsgraph()
         found = [str(fault) for fault in sb.health(obj)]
         assert any(words in text for text in found), (break_it.__name__, found)
-        assert any(words in fault.what for fault in quick_faults(obj)) == is_quick, break_it.__name__
+        text, buttons = panel(obj)
+        assert words in text and buttons == ["skinglow.repair"], (break_it.__name__, text, buttons)
         assert bpy.ops.skinglow.repair() == {"FINISHED"}
         assert sb.health(obj) == [], (break_it.__name__, sb.health(obj))
+        depsgraph()
+        assert panel(obj) == ("", []), break_it.__name__
         assert sb.lut(obj, depsgraph()).max() > 0.0
 
 
