@@ -4,6 +4,7 @@ import bpy
 import numpy as np
 import skinglow_blender as sb
 from mathutils import Matrix
+from skinglow_blender.read.measured_geometry import MOVING_NOTHING
 from skinglow_blender.show.lut_image import images_of
 from skinglow_blender.show.skin_material import remove_from_material
 from skinglow_blender.thickness.thickness_attribute import KNOWN_ATTRIBUTE
@@ -105,8 +106,14 @@ def check_deleted_images_come_back(_work):
 
 
 def check_no_false_alarm(_work):
-    """Moved, turned, scaled, posed by a shape key, given thicknesses: all is well."""
+    """Moved, turned, scaled, with hair and normals, given thicknesses: all is well."""
     obj = healthy_skin()
+    for kind in sorted(MOVING_NOTHING):
+        obj.modifiers.new(kind, kind)
+        depsgraph()
+        assert sb.health(obj) == [], kind
+    assert {m.type for m in obj.modifiers} == MOVING_NOTHING
+    obj.modifiers.clear()
     obj.location, obj.rotation_euler, obj.scale = (1.0, 2.0, 3.0), (0.1, 0.2, 0.3), (2.0, 2.0, 2.0)
     depsgraph()
     assert sb.health(obj) == []
