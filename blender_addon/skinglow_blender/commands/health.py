@@ -83,6 +83,8 @@ def quick_faults(obj: bpy.types.Object) -> list[Fault]:
         faults.append(Fault("Its thickness is not known, so it does not glow", MEASURE))
     elif is_reshaped(mesh) and thickness_attribute.is_from_measurement(mesh):
         faults.append(Fault("Its mesh was edited after its thickness was measured", MEASURE))
+    elif what := thickness_attribute.measured_otherwise(obj, bpy.context.scene):
+        faults.append(Fault(what, MEASURE))
     elif thickness_attribute.is_from_measurement(mesh) and is_stretched(obj):
         # A hint: animation may squash and stretch it.
         faults.append(Fault("It was scaled unevenly after its thickness was measured", MEASURE, is_hint=True))

@@ -12,6 +12,7 @@ from ..preferences import of_new_skins
 from ..read.measured_geometry import Geometry, read_geometry
 from ..session import SESSION
 from ..setting_choices import LIGHTINGS, MODES
+from ..setting_values import as_typed
 from ..thickness import thickness_attribute
 from ..thickness.measuring import Measuring
 from ..thickness.tile_attribute import ensure_tiles
@@ -203,7 +204,7 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
         found = {}
         for obj in self.targets(context):
             geometry = read_geometry(obj, context.scene)
-            unit = self._settings(obj).get("unit_mm", 0.0)
+            unit = as_typed(self._settings(obj).get("unit_mm", 0.0))
             if unit > 0.0:
                 geometry = geometry._replace(unit_mm=unit)
             if not thickness_attribute.is_measured(obj, geometry):

@@ -63,6 +63,22 @@ def add_decimate(obj):
     obj.modifiers.new("Fewer", "DECIMATE").ratio = 0.9
 
 
+def change_unit(obj):
+    obj.skinglow.unit_mm = 250.0
+
+
+def change_unit_of_scene(_obj):
+    bpy.context.scene.unit_settings.scale_length = 0.5
+
+
+def change_rays(obj):
+    obj.skinglow.rays = 80
+
+
+def change_openness(obj):
+    obj.skinglow.min_openness = 0.25
+
+
 FAULTS = {
     delete_group: "node group was deleted",
     replace_material: "None of its materials has the Skinglow node",
@@ -72,6 +88,10 @@ FAULTS = {
     sculpt_one: "mesh or its modifiers were edited",
     add_solidify: "mesh or its modifiers were edited",
     add_decimate: "mesh or its modifiers were edited",
+    change_unit: "one unit was 1000 mm, which is now 250 mm",
+    change_unit_of_scene: "one unit was 1000 mm, which is now 500 mm",
+    change_rays: "Rays or Min Sky Visibility were changed",
+    change_openness: "Rays or Min Sky Visibility were changed",
 }
 
 
@@ -122,8 +142,13 @@ def check_no_false_alarm(_work):
     obj.data.transform(Matrix.Scale(0.5, 4))
     obj.data.update()
     assert sb.health(obj) == []
+    # A unit that single precision rounds; it was refused as a change while measuring.
+    assert bpy.ops.skinglow.make(unit_mm=25.4) == {"FINISHED"}
+    assert sb.health(obj) == []
     sb.make_skin(obj, thickness=[1.0] * len(obj.data.vertices), mode="paper")
     sculpt(obj)
+    change_unit(obj)
+    change_rays(obj)
     assert sb.health(obj) == []
 
 
