@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from ..errors import SkinError, core
+from ..identity import library_of
 from ..read.measured_geometry import Geometry, mesh_digest, read_geometry, unit_mm
 from ..read.measured_size import (
     MEASURED_BY,
@@ -66,7 +67,7 @@ def measured_otherwise(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     A linked mesh was measured by the settings of its own file.
     """
     mesh = obj.data
-    if mesh.library is not None or not is_from_measurement(mesh):
+    if library_of(mesh) is not None or not is_from_measurement(mesh):
         return ""
     then, now = mesh.get(MEASURED_UNIT), unit_mm(obj, scene)
     # Blender keeps the unit of the scene in single precision.
@@ -90,7 +91,7 @@ def ensure_measured(
     Custom thicknesses are kept until they are measured explicitly (Measure Thickness), and those of a linked mesh
     always: they were measured in its own file.
     """
-    if obj.data.library is not None and THICKNESS_ATTRIBUTE in obj.data.attributes:
+    if library_of(obj.data) is not None and THICKNESS_ATTRIBUTE in obj.data.attributes:
         return False
     geometry = read_geometry(obj, scene)
     if is_measured(obj, geometry):
@@ -152,10 +153,11 @@ def measure(geometry: Geometry, progress: Callable[[float], bool] | None = None)
 
 
 def check_local(obj: bpy.types.Object) -> None:
-    """Raises SkinError if the object's mesh is linked from a library: what is stored in it is lost with the session."""
-    if obj.data.library is not None:
+    """Raises SkinError if the mesh is linked from a library or overrides one: what is stored in it gets lost."""
+    library = library_of(obj.data)
+    if library is not None:
         raise SkinError(
-            f"The mesh of '{obj.name}' belongs to {obj.data.library.filepath} and cannot keep a thickness: make the "
+            f"The mesh of '{obj.name}' belongs to {library.filepath} and cannot keep a thickness: make the "
             "skin in that file, or make object and data local first (Object > Relations > Make Local)"
         )
 

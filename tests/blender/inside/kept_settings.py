@@ -116,13 +116,44 @@ def check_library_overrides_keep_settings(work):
     assert all(settings[name].is_overridable for name in (*SETTING_NAMES, "enabled", "group", "row"))
 
 
-def check_linked_mesh_is_refused(work):
-    """A thickness stored in a library's mesh would be gone when the file is opened again."""
-    patch("Plain")
+def overridden(work, mesh=False):
+    """An override of an object of a library; its mesh may be overridden too."""
+    patch("Plain", material=bpy.data.materials.new("Surface"))
     bpy.ops.wm.save_as_mainfile(filepath=str(work / "plain.blend"))
     bpy.ops.wm.read_factory_settings(use_empty=True)
     with bpy.data.libraries.load(str(work / "plain.blend"), link=True) as (_source, target):
         target.objects = ["Plain"]
     override = link(target.objects[0]).override_create(remap_local_usages=True)
+    if mesh:
+        override.data = override.data.override_create()
+    return override
+
+
+def check_overridden_mesh_is_refused(work):
+    """An override keeps no attribute that is added to it: it would be gone when the file is opened."""
+    override = overridden(work, mesh=True)
+    assert override.data.library is None and override.data.override_library
+    for thickness in (None, THIN):
+        words = "plain.blend and cannot keep a thickness"
+        refused(sb.SkinError, words, sb.make_skin, override, thickness=thickness, mode="physical")
+        assert not override.skinglow.enabled and not bpy.data.node_groups
+
+
+def check_overridden_material_is_refused(work):
+    """Nor a node, with a mesh of its own that keeps a thickness."""
+    override = overridden(work)
+    override.data = override.data.copy()
+    override.data.materials[0] = bpy.data.materials["Surface"].override_create()
+    material = override.material_slots[0].material
+    assert material.library is None and material.override_library
+    for slots in (None, [0]):
+        words = "'Surface' of 'Plain' belongs to"
+        refused(sb.SkinError, words, sb.make_skin, override, thickness=THIN, slots=slots, mode="physical")
+        assert not override.skinglow.enabled and not bpy.data.node_groups
+
+
+def check_linked_mesh_is_refused(work):
+    """A thickness stored in a library's mesh would be gone when the file is opened again."""
+    override = overridden(work)
     refused(sb.SkinError, "cannot keep a thickness", sb.make_skin, override, mode="physical")
     assert not override.skinglow.enabled and not bpy.data.node_groups
