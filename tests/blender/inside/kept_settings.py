@@ -7,7 +7,7 @@ import numpy as np
 import skinglow_blender as sb
 from skinglow_blender.read.scene_reading import ROW_PROPERTY
 from skinglow_blender.session import SESSION
-from skinglow_blender.skin_settings import SETTING_NAMES, SkinSettings
+from skinglow_blender.skin_settings import MEASURING_NAMES, SETTING_NAMES, SkinSettings
 
 from inside.bad_input import refused
 from inside.scenes import add_light, depsgraph, link, patch
@@ -57,6 +57,23 @@ def check_preset_is_a_menu(_work):
     sb.make_skin(obj, thickness=THIN, mode="physical")
     refused(TypeError, "not animatable", obj.keyframe_insert, "skinglow.preset")
     assert obj.keyframe_insert("skinglow.melanin_fraction")
+
+
+def check_how_thickness_is_measured_is_not_animated(_work):
+    """It is measured once: keys would do nothing."""
+    obj = patch()
+    sb.make_skin(obj, thickness=THIN, mode="physical")
+    for name in MEASURING_NAMES:
+        refused(TypeError, "not animatable", obj.keyframe_insert, f"skinglow.{name}")
+
+
+def check_lengths_are_in_mm(_work):
+    """The kind of length that Blender shows in mm."""
+    sb.register()
+    for operator in (bpy.ops.skinglow.bake_thickness, bpy.ops.skinglow.thickness_from_image, bpy.ops.skinglow.make):
+        properties = operator.get_rna_type().properties
+        white = properties["white_mm" if "white_mm" in properties else "unit_mm"]
+        assert white.unit == "CAMERA", (white.identifier, white.unit)
 
 
 def check_reset_keeps_how_it_was_measured(_work):
