@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What tells one data-block from another, whatever they are called."""
+"""What tells one data-block from another, whatever they are called, and where it comes from."""
 
 import bpy
 
@@ -22,3 +22,14 @@ def lasting_key_of(data: bpy.types.ID) -> str:
     """
     original = data.original
     return f"{original.name}\n{original.library.filepath}" if original.library is not None else original.name
+
+
+def library_of(data: bpy.types.ID) -> bpy.types.Library | None:
+    """The library from which a data-block is read again whenever the file is opened; None: it is the file's own.
+
+    Also of an override, which keeps settings that were changed in it, but no attribute and no node that was added.
+    """
+    override = data.override_library
+    if override is not None and override.reference is not None:
+        return override.reference.library
+    return data.library

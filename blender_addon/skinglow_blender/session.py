@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .commands.freezing import Freezing
+    from .commands.material_health import Fault
     from .live.newest_wins import NewestWins
     from .live.shape_update import ShapeState
     from .read.known_objects import Known
@@ -71,6 +72,11 @@ class Session:
         #: Skin to the (updates, scene, view layer) of its filled list of lights, and of the list that was asked for.
         self.filled_lists: dict[str, tuple[int, str, str]] = {}
         self.requested_lists: dict[str, tuple[int, str, str]] = {}
+        #: Skin to the (scene, view layer, measured slots) that its faults of thickness are of, None once its mesh
+        #: changed, and these faults; those that were asked for; and when one of these meshes changed last, seconds.
+        self.thickness_faults: dict[str, tuple[tuple | None, tuple[Fault, ...]]] = {}
+        self.requested_faults: dict[str, tuple] = {}
+        self.reshaped_at = 0.0
         #: Thumbnail to what it was drawn from, and the thickness at its right end, mm.
         self.thumbnails: dict[str, tuple[tuple, float]] = {}
         #: (skin, depsgraph mode) to its light through its shape, the meshes that this is solved in, and the thread.

@@ -239,6 +239,7 @@ class SkinSettings(bpy.types.PropertyGroup):
         soft_max=1000.0,
         max=1e9,
         precision=3,
+        options=set(),
         update=_changed,
         description="Length of one Blender unit in mm; 0 uses the unit scale of the scene (1000 by default)",
     )
@@ -248,6 +249,7 @@ class SkinSettings(bpy.types.PropertyGroup):
         min=1,
         soft_max=512,
         max=65536,
+        options=set(),
         description="Number of rays per vertex for measuring the thickness",
     )
     min_openness: FloatProperty(
@@ -256,6 +258,7 @@ class SkinSettings(bpy.types.PropertyGroup):
         default=0.1,
         min=0.0,
         max=1.0,
+        options=set(),
         description="Minimum fraction of the sky that a far side must see to let light in, so that the mouth and eye "
         "sockets stay dark; 0 accepts all far sides",
     )

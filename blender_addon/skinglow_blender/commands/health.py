@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether everything that makes an object glow agrees: its nodes, images, materials, thickness and mesh."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import bpy
 import numpy as np
@@ -24,6 +24,7 @@ from .material_health import REPAIR, Fault, layer_faults, material_faults, measu
 from .skin import make_skin, skin_settings_of
 
 MEASURE = "press Measure Thickness"
+MEASURE_APPLIED = f"{MEASURE}; if a modifier makes these vertices, apply it first"
 CHOOSE_REFERENCE = "Choose them in the panel Lookup Table, under Light Distance From"
 FREEZE_AGAIN = "unfreeze it, or then freeze it again"
 FREEZE_MORE = "unfreeze it, or then freeze more frames"
@@ -38,13 +39,18 @@ def health(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None = None) 
     if obj.type != "MESH" or not obj.skinglow.enabled:
         skin_settings_of(obj)
     depsgraph = depsgraph or bpy.context.evaluated_depsgraph_get()
-    faults = quick_faults(obj)
-    if not any(fault.remedy == MEASURE and not fault.is_hint for fault in faults):
-        faults += _thickness_faults(obj, depsgraph)
+    faults = with_thickness_faults(quick_faults(obj), lambda: thickness_faults(obj, depsgraph))
     told = SESSION.faults.get(key_of(obj))
     if told is not None and not faults:
         faults.append(Fault(told, REPAIR))
     return faults
+
+
+def with_thickness_faults(quick: list[Fault], find: Callable[[], Iterable[Fault]]) -> list[Fault]:
+    """The faults of a skin: the quick ones, and those of its thickness unless a quick one says that already."""
+    if any(fault.remedy == MEASURE and not fault.is_hint for fault in quick):
+        return quick
+    return [*quick, *find()]
 
 
 def quick_faults(obj: bpy.types.Object) -> list[Fault]:
@@ -77,6 +83,8 @@ def quick_faults(obj: bpy.types.Object) -> list[Fault]:
         faults.append(Fault("Its thickness is not known, so it does not glow", MEASURE))
     elif is_reshaped(mesh) and thickness_attribute.is_from_measurement(mesh):
         faults.append(Fault("Its mesh was edited after its thickness was measured", MEASURE))
+    elif what := thickness_attribute.measured_otherwise(obj, bpy.context.scene):
+        faults.append(Fault(what, MEASURE))
     elif thickness_attribute.is_from_measurement(mesh) and is_stretched(obj):
         # A hint: animation may squash and stretch it.
         faults.append(Fault("It was scaled unevenly after its thickness was measured", MEASURE, is_hint=True))
@@ -105,7 +113,8 @@ def _frozen_faults(obj: bpy.types.Object, group: bpy.types.NodeTree) -> list[Fau
     return []
 
 
-def _thickness_faults(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[Fault]:
+def thickness_faults(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[Fault]:
+    """What a look at every vertex finds: a thickness that is not known where it is shown, or of another mesh."""
     slots = measured_slots(obj)
     if obj.material_slots and not any(slots):
         return []
@@ -118,7 +127,7 @@ def _thickness_faults(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> 
         return [
             Fault(
                 f"The thickness is not known at {share:.1%} of the vertices shown, which do not glow",
-                f"{MEASURE}; if a modifier makes these vertices, apply it first",
+                MEASURE_APPLIED,
             )
         ]
     if thickness_attribute.is_from_measurement(obj.data) and not thickness_attribute.is_of_this_mesh(obj):

@@ -5,6 +5,7 @@ What a render shows differs from what the viewport shows. So each frame is evalu
 that draws nothing; the add-on's own handlers then show what they would show in a picture, and that is taken.
 """
 
+import traceback
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from typing import NamedTuple
@@ -46,9 +47,7 @@ def shown_in_render(scene: bpy.types.Scene) -> dict[str, Shown]:
     found: dict[str, Shown] = {}
     faults: list[str] = []
 
-    def look(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-        if depsgraph.mode != "RENDER":
-            return
+    def take(depsgraph: bpy.types.Depsgraph) -> None:
         faults.extend(SESSION.faults.values())
         for obj, shown in _rows_shown(depsgraph):
             before = found.setdefault(key_of(obj), shown)
@@ -57,6 +56,15 @@ def shown_in_render(scene: bpy.types.Scene) -> dict[str, Shown]:
                     f"{obj.name}: view layers light it differently, and a frozen material can show one of them: "
                     "turn off Use for Rendering of the others"
                 )
+
+    def look(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+        if depsgraph.mode != "RENDER":
+            return
+        try:
+            take(depsgraph)
+        except Exception as error:  # noqa: BLE001  Blender keeps what a handler raises to itself
+            faults.append(f"unexpected {type(error).__name__}: {error}")
+            traceback.print_exception(error)
 
     # The add-on's own handler runs before this one.
     bpy.app.handlers.frame_change_post.append(look)

@@ -15,6 +15,7 @@ from contextlib import ExitStack, contextmanager
 import bpy
 
 from ..session import SESSION
+from .guard import faults_shown
 
 
 def may_go_on(_fraction: float) -> bool:
@@ -52,6 +53,7 @@ def interruptible() -> Iterator[None]:
         SESSION.waiting -= 1
 
 
+@faults_shown()
 def _watch() -> None:
     """Watches in all windows, as the render may have one of its own."""
     for window in bpy.context.window_manager.windows if SESSION.waiting else ():

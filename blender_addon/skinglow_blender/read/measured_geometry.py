@@ -22,6 +22,11 @@ REBUILDING = frozenset(
     "BEVEL BOOLEAN BUILD DECIMATE EDGE_SPLIT EXPLODE FLUID MASK MESH_SEQUENCE_CACHE NODES OCEAN REMESH SCREW SKIN "
     "VOLUME_TO_MESH WELD WIREFRAME".split()
 )
+#: Modifiers that move no vertex: shading, weights, UV maps, hair and physics.
+MOVING_NOTHING = frozenset(
+    "COLLISION DATA_TRANSFER NORMAL_EDIT PARTICLE_SYSTEM UV_PROJECT UV_WARP VERTEX_WEIGHT_EDIT VERTEX_WEIGHT_MIX "
+    "VERTEX_WEIGHT_PROXIMITY WEIGHTED_NORMAL".split()
+)
 
 
 def unit_mm(obj: bpy.types.Object, scene: bpy.types.Scene) -> float:
@@ -74,10 +79,11 @@ def read_geometry(obj: bpy.types.Object, scene: bpy.types.Scene) -> Geometry:
 
 
 def mesh_digest(obj: bpy.types.Object) -> str:
-    """A digest of a mesh without its modifiers, and of their kinds."""
+    """A digest of a mesh without its modifiers, and of the kinds of those that may move its vertices."""
     state = hashlib.sha256(vertices_of(obj.data).tobytes())
     state.update(triangles_of(obj.data).tobytes())
-    state.update(" ".join(m.type for m in obj.modifiers if m.show_viewport).encode())
+    kinds = (m.type for m in obj.modifiers if m.show_viewport)
+    state.update(" ".join(kind for kind in kinds if kind not in MOVING_NOTHING).encode())
     return state.hexdigest()
 
 

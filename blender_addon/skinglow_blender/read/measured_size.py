@@ -12,12 +12,14 @@ from ..errors import core
 
 #: Mesh properties stored when its thickness was measured: edge length of its unit cube in the world, scene units;
 #: matrix of its object without the position, by rows; number of its vertices, and index and position of some;
-#: millimeters per scene unit; bounding cone of its normals in object space (axis, half angle in radians).
+#: millimeters per scene unit; bounding cone of its normals in object space (axis, half angle in radians); rays and min
+#: sky visibility, not of a thickness that was given.
 MEASURED_SIZE = "skinglow_world_size"
 MEASURED_MATRIX = "skinglow_matrix"
 MEASURED_SAMPLES = "skinglow_samples"
 MEASURED_UNIT = "skinglow_unit_mm"
 MEASURED_CONE = "skinglow_normal_cone"
+MEASURED_BY = "skinglow_measured_by"
 SAMPLES = 8
 
 

@@ -7,6 +7,7 @@ EEVEE, and Cycles before 4.5, cannot read vertex groups. So the weights are copi
 import bpy
 import numpy as np
 
+from ..identity import library_of
 from .skin_material import skin_input, skin_nodes
 
 #: Custom property of the nodes that fill the socket.
@@ -16,9 +17,9 @@ ATTRIBUTE_PREFIX = "skinglow_mask_"
 
 
 def fill_mask(material: bpy.types.Material) -> None:
-    """Connects what the material's settings ask for; what an artist connected stays."""
+    """Connects what the material's settings ask for; what an artist connected stays, and what a library has."""
     settings = material.skinglow
-    if material.library is not None:
+    if library_of(material) is not None:
         return
     for node in skin_nodes(material):
         if masked_by_artist(node):

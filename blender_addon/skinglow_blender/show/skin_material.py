@@ -8,6 +8,7 @@ import numpy as np
 
 from .. import blender_version
 from ..errors import SkinError
+from ..identity import library_of
 from ..read import working_space
 from .group_sockets import replace_group
 from .lut_image import FROZEN_PROPERTY, is_skin_group, skin_groups
@@ -28,7 +29,7 @@ def chosen_materials(obj: bpy.types.Object) -> list[bpy.types.Material]:
     A library's material cannot be left out or added to: it is skin where it has the node.
     """
     materials = [slot.material for slot in obj.material_slots if slot.material is not None]
-    return [m for m in dict.fromkeys(materials) if (m.skinglow.is_skin if m.library is None else skin_node(m))]
+    return [m for m in dict.fromkeys(materials) if (m.skinglow.is_skin if library_of(m) is None else skin_node(m))]
 
 
 def choose_slots(obj: bpy.types.Object, slots: Iterable[int | str]) -> Callable[[], None]:
@@ -54,7 +55,7 @@ def choose_slots(obj: bpy.types.Object, slots: Iterable[int | str]) -> Callable[
 
     def choose() -> None:
         for material in set(there.values()) - {None}:
-            if material.library is None and material.skinglow.is_skin != (material in chosen):
+            if library_of(material) is None and material.skinglow.is_skin != (material in chosen):
                 material.skinglow.is_skin = material in chosen
 
     return choose
@@ -107,9 +108,10 @@ def _stop_sampling(material: bpy.types.Material) -> None:
 
 def _check_local(obj: bpy.types.Object, materials: list[bpy.types.Material]) -> None:
     for material in materials:
-        if material.library is not None and skin_node(material) is None:
+        library = library_of(material)
+        if library is not None and skin_node(material) is None:
             raise SkinError(
-                f"Material '{material.name}' of '{obj.name}' belongs to {material.library.filepath}: make it local "
+                f"Material '{material.name}' of '{obj.name}' belongs to {library.filepath}: make it local "
                 "(Object > Relations > Make Local > ... and Materials) or make the skin in that file"
             )
 

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The thickness of a mesh at each vertex, mm, stored as the attribute that the node group reads."""
 
+import math
 from collections.abc import Callable, Sequence
 
 import bpy
 import numpy as np
 
 from ..errors import SkinError, core
-from ..read.measured_geometry import Geometry, mesh_digest, read_geometry
+from ..identity import library_of
+from ..read.measured_geometry import Geometry, mesh_digest, read_geometry, unit_mm
 from ..read.measured_size import (
+    MEASURED_BY,
     MEASURED_CONE,
     MEASURED_MATRIX,
     MEASURED_SAMPLES,
@@ -59,6 +62,28 @@ def is_of_this_mesh(obj: bpy.types.Object) -> bool:
     return stored is None or stored == mesh_digest(obj) or (mesh_scale(obj.data) or 1.0) != 1.0
 
 
+def measured_otherwise(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
+    """What of the settings changed since the thickness was measured, in words; empty: nothing, or it was given.
+
+    A linked mesh was measured by the settings of its own file.
+    """
+    mesh = obj.data
+    if library_of(mesh) is not None or not is_from_measurement(mesh):
+        return ""
+    then, now = mesh.get(MEASURED_UNIT), unit_mm(obj, scene)
+    # Blender keeps the unit of the scene in single precision.
+    if then is not None and not math.isclose(then, now, rel_tol=1e-6):
+        return f"Its thickness was measured where one unit was {then:.4g} mm, which is now {now:.4g} mm"
+    if MEASURED_BY in mesh and list(mesh[MEASURED_BY]) != _measured_by(obj.skinglow.rays, obj.skinglow.min_openness):
+        return "Rays or Min Sky Visibility were changed after its thickness was measured"
+    return ""
+
+
+def _measured_by(rays: int, min_sky_visibility: float) -> list[float]:
+    """The value of MEASURED_BY."""
+    return [float(rays), min_sky_visibility]
+
+
 def ensure_measured(
     obj: bpy.types.Object, scene: bpy.types.Scene, progress: Callable[[float], bool] | None = None
 ) -> bool:
@@ -67,7 +92,7 @@ def ensure_measured(
     Custom thicknesses are kept until they are measured explicitly (Measure Thickness), and those of a linked mesh
     always: they were measured in its own file.
     """
-    if obj.data.library is not None and THICKNESS_ATTRIBUTE in obj.data.attributes:
+    if library_of(obj.data) is not None and THICKNESS_ATTRIBUTE in obj.data.attributes:
         return False
     geometry = read_geometry(obj, scene)
     if is_measured(obj, geometry):
@@ -91,6 +116,7 @@ def store_measured(
     store(obj, thickness_mm, geometry.unit_mm)
     obj.data[MEASURED_GEOMETRY] = digest
     obj.data[MEASURED_MESH] = mesh_digest(obj)
+    obj.data[MEASURED_BY] = _measured_by(geometry.rays, geometry.min_sky_visibility)
     obj.data[NO_FAR_SIDE] = float(np.mean(no_far_side)) if len(no_far_side) else 0.0
 
 
@@ -128,10 +154,11 @@ def measure(geometry: Geometry, progress: Callable[[float], bool] | None = None)
 
 
 def check_local(obj: bpy.types.Object) -> None:
-    """Raises SkinError if the object's mesh is linked from a library: what is stored in it is lost with the session."""
-    if obj.data.library is not None:
+    """Raises SkinError if the mesh is linked from a library or overrides one: what is stored in it gets lost."""
+    library = library_of(obj.data)
+    if library is not None:
         raise SkinError(
-            f"The mesh of '{obj.name}' belongs to {obj.data.library.filepath} and cannot keep a thickness: make the "
+            f"The mesh of '{obj.name}' belongs to {library.filepath} and cannot keep a thickness: make the "
             "skin in that file, or make object and data local first (Object > Relations > Make Local)"
         )
 
@@ -162,6 +189,7 @@ def store(
     mesh[MEASURED_GEOMETRY] = GIVEN
     mesh.pop(NO_FAR_SIDE, None)
     mesh.pop(MEASURED_MESH, None)
+    mesh.pop(MEASURED_BY, None)
     mesh[MEASURED_SIZE] = abs(obj.matrix_world.to_3x3().determinant()) ** (1.0 / 3.0)
     mesh[MEASURED_MATRIX] = matrix_of(obj)
     mesh[MEASURED_SAMPLES] = samples_of(mesh)
@@ -213,6 +241,7 @@ def remove(mesh: bpy.types.Mesh) -> None:
         MEASURED_SAMPLES,
         MEASURED_UNIT,
         MEASURED_CONE,
+        MEASURED_BY,
         MEASURED_GEOMETRY,
         MEASURED_MESH,
         NO_FAR_SIDE,

@@ -7,7 +7,7 @@ from bpy.props import IntProperty, StringProperty
 from ..commands.freezing import FOLDER, Freezing, Frozen, frozen_state, unfreeze
 from ..errors import SkinError
 from ..session import SESSION
-from .measuring_operators import redraw_panels
+from .light_list import redraw_panels
 from .operators import may_act, selected_skins
 
 #: Seconds between two frames: enough for Blender to draw the progress.
@@ -83,7 +83,7 @@ class SKINGLOW_OT_freeze(bpy.types.Operator):  # noqa: N801  Blender's naming
                 return {"RUNNING_MODAL"}
             more = freezing.step()
             context.workspace.status_text_set(f"Freezing light: {freezing.done:.0%}      Esc: cancel")
-            redraw_panels(context)
+            redraw_panels()
             if more:
                 return {"RUNNING_MODAL"}
             frozen = freezing.finish()
@@ -115,7 +115,7 @@ class SKINGLOW_OT_freeze(bpy.types.Operator):  # noqa: N801  Blender's naming
         context.window_manager.event_timer_remove(self._timer)
         if context.workspace is not None:
             context.workspace.status_text_set(None)
-        redraw_panels(context)
+        redraw_panels()
 
     def _failed(self, freezing: Freezing | None, error: Exception) -> set[str]:
         if freezing is not None:

@@ -7,12 +7,12 @@ import blf
 import bpy
 import gpu
 import numpy as np
-from bpy.app.handlers import persistent
 from bpy.props import BoolProperty
 from gpu_extras.batch import batch_for_shader
 
 from ..errors import SkinError, core
 from ..identity import key_of
+from ..live.guard import faults_shown, guarded
 from ..read.measured_size import scale_since_measured
 from ..read.mesh_reading import evaluated_mesh, triangles_of, vertices_of
 from ..thickness import thickness_attribute
@@ -56,6 +56,7 @@ def colored_triangles(obj: bpy.types.Object, limit: float) -> tuple[np.ndarray, 
     return positions + LIFT * size * normals.reshape(-1, 3), colors, triangles
 
 
+@faults_shown()
 def draw_skins() -> None:
     """Draws the colors of the skins; called by Blender for each view."""
     context = bpy.context
@@ -88,6 +89,7 @@ def draw_skins() -> None:
         gpu.state.depth_test_set("NONE")
 
 
+@faults_shown()
 def draw_legend() -> None:
     """Draws what the colors mean, in the lower left corner."""
     context = bpy.context
@@ -135,8 +137,8 @@ def _shader() -> Any:  # noqa: ANN401  a GPUShader
     return gpu.shader.from_builtin("SMOOTH_COLOR" if bpy.app.version >= (4, 0, 0) else "3D_SMOOTH_COLOR")
 
 
-@persistent
-def _on_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph | None = None) -> None:
+@guarded
+def _on_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph | None) -> None:
     """Drops the colors of what changed its shape."""
     if not _batches:
         return
@@ -146,8 +148,8 @@ def _on_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph | None = 
             del _batches[name]
 
 
-@persistent
-def _forget(_first: object = None, _second: object = None) -> None:
+@guarded
+def _forget(_first: object, _second: object) -> None:
     _batches.clear()
 
 

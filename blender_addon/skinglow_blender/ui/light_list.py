@@ -75,7 +75,7 @@ def fill_requested() -> int:
     while SESSION.requested_lists:
         key, stamp = SESSION.requested_lists.popitem()
         obj = next((o for o in bpy.data.objects if key_of(o) == key), None)
-        layer = _view_layer(*stamp[1:])
+        layer = view_layer_of(*stamp[1:])
         if obj is None or layer is None or layer.depsgraph is None:
             continue
         try:
@@ -99,20 +99,21 @@ def _fill_soon() -> float | None:
     if SESSION.rendering:
         return DELAY
     with faults_shown():
-        _fill_and_redraw()
+        if fill_requested():
+            redraw_panels()
     return None
 
 
-def _fill_and_redraw() -> None:
-    if not fill_requested():
-        return
+def redraw_panels() -> None:
+    """Redraws the panels of all windows."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type in ("VIEW_3D", "PROPERTIES"):
                 area.tag_redraw()
 
 
-def _view_layer(scene: str, layer: str) -> bpy.types.ViewLayer | None:
+def view_layer_of(scene: str, layer: str) -> bpy.types.ViewLayer | None:
+    """The view layer of those names, or None."""
     found = bpy.data.scenes.get(scene)
     return found.view_layers.get(layer) if found is not None else None
 

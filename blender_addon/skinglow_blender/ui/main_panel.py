@@ -3,13 +3,22 @@
 
 import bpy
 
-from ..commands.health import FREEZE_AGAIN, FREEZE_MORE, quick_faults
+from ..commands.health import FREEZE_AGAIN, FREEZE_MORE, MEASURE_APPLIED
 from ..commands.material_health import CHOOSE_SHOWN_BY
 from ..identity import key_of
 from ..read.measured_geometry import unit_mm
 from ..session import SESSION
 from ..show.frozen import is_frozen
-from . import freeze_panel, lights_panel, look_panel, lookup_table_panel, material_panel, thickness_panel, tools_panel
+from . import (
+    freeze_panel,
+    lights_panel,
+    look_panel,
+    lookup_table_panel,
+    material_panel,
+    thickness_faults,
+    thickness_panel,
+    tools_panel,
+)
 from .locations import ObjectProperties, Sidebar, is_skin
 from .lut_preview import icon_of
 from .manual import draw_in_header
@@ -65,13 +74,15 @@ def _draw_faults_of_update(
 
 
 def _draw_faults(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context) -> None:
-    faults = quick_faults(obj)
+    faults = thickness_faults.shown_faults(obj, context)
     if not faults:
         return
     box = layout.box()
     column = box.column(align=True)
     for fault in faults:
-        draw_wrapped(column, fault.what, context, icon="INFO" if fault.is_hint else "ERROR")
+        # Repair measures, but applies no modifier.
+        text = str(fault) if fault.remedy == MEASURE_APPLIED else fault.what
+        draw_wrapped(column, text, context, icon="INFO" if fault.is_hint else "ERROR")
     remedies = {fault.remedy for fault in faults if not fault.is_hint}
     if remedies - {FREEZE_AGAIN, FREEZE_MORE}:
         box.operator("skinglow.repair", text="Repair", icon="FILE_REFRESH")
@@ -131,9 +142,11 @@ def register() -> None:
     """Adds the panels, each below the one before."""
     for each in CLASSES:
         bpy.utils.register_class(each)
+    thickness_faults.register()
 
 
 def unregister() -> None:
     """Removes the panels."""
+    thickness_faults.unregister()
     for each in reversed(CLASSES):
         bpy.utils.unregister_class(each)

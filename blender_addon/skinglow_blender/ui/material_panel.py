@@ -3,6 +3,7 @@
 
 import bpy
 
+from ..identity import library_of
 from ..show.mask import masked_by_artist
 from ..show.skin_material import skin_input, skin_node
 from ..show.subsurface import SHOWN_BY, has_subsurface, light_shown_by
@@ -30,7 +31,7 @@ class SKINGLOW_UL_slots(bpy.types.UIList):  # noqa: N801  Blender's naming
             row.label(text="", icon="BLANK1")
             row.label(text="Empty Slot", icon="MATERIAL")
             return
-        box.enabled = material.library is None
+        box.enabled = library_of(material) is None
         box.prop(material.skinglow, "is_skin", text="")
         row.label(text=material.name, icon_value=icon)
         if light_shown_by(material) == "BOTH":
@@ -54,7 +55,7 @@ def draw_material(layout: bpy.types.UILayout, obj: bpy.types.Object, material: b
         layout.prop(material.skinglow, "is_skin")
         return
     column = layout.column()
-    column.enabled = material.library is None
+    column.enabled = library_of(material) is None
     _draw_mask(column, obj, material, node)
     column.use_property_decorate = True
     for name in ("Thickness", "Tint", "Strength"):

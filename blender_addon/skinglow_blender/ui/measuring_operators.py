@@ -5,17 +5,20 @@ import bpy
 from bpy.props import CollectionProperty, EnumProperty, FloatProperty
 
 from ..commands import skin
+from ..commands.health import thickness_faults
 from ..errors import SkinError
 from ..identity import HAS_UID, key_of
 from ..preferences import of_new_skins
 from ..read.measured_geometry import Geometry, read_geometry
 from ..session import SESSION
 from ..setting_choices import LIGHTINGS, MODES
+from ..setting_values import as_typed
 from ..thickness import thickness_attribute
 from ..thickness.measuring import Measuring
 from ..thickness.tile_attribute import ensure_tiles
 from ..tissue_presets import PRESETS
 from . import slot_choice
+from .light_list import redraw_panels
 from .operators import SKIN, may_act, selected_meshes, selected_skins
 
 #: Seconds between two checks of the thread.
@@ -104,7 +107,7 @@ class _MeasuringOperator:
         context.window_manager.event_timer_remove(self._timer)
         if context.workspace is not None:
             context.workspace.status_text_set(None)
-        redraw_panels(context)
+        redraw_panels()
 
     def _store(self, context: bpy.types.Context, geometries: dict, thicknesses: dict) -> set[str]:
         try:
@@ -116,6 +119,10 @@ class _MeasuringOperator:
             for key in thicknesses:
                 if text := thickness_attribute.no_far_side_text(objects[key].data):
                     self.report({"WARNING"}, f"{objects[key].name}: {text}")
+            depsgraph = context.evaluated_depsgraph_get()
+            for obj in objects.values():
+                for fault in thickness_faults(obj, depsgraph):
+                    self.report({"WARNING"}, f"{obj.name}: {fault}")
         except (SkinError, ValueError) as error:
             self.report({"ERROR"}, str(error))
         # Also after an error: some meshes may have changed, and Undo reverts that.
@@ -141,15 +148,7 @@ def _show_progress(context: bpy.types.Context) -> None:
     else:
         text = f"The thickness of {names} is measured: return to Object Mode to apply it      Esc: cancel"
     context.workspace.status_text_set(text)
-    redraw_panels(context)
-
-
-def redraw_panels(context: bpy.types.Context) -> None:
-    """Redraws the panels."""
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type in ("VIEW_3D", "PROPERTIES"):
-                area.tag_redraw()
+    redraw_panels()
 
 
 def stop_measuring() -> None:
@@ -205,7 +204,7 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
         found = {}
         for obj in self.targets(context):
             geometry = read_geometry(obj, context.scene)
-            unit = self._settings(obj).get("unit_mm", 0.0)
+            unit = as_typed(self._settings(obj).get("unit_mm", 0.0))
             if unit > 0.0:
                 geometry = geometry._replace(unit_mm=unit)
             if not thickness_attribute.is_measured(obj, geometry):

@@ -4,6 +4,8 @@
 import bpy
 from bpy.props import BoolProperty, StringProperty
 
+from ..identity import library_of
+
 
 class SlotChoice(bpy.types.PropertyGroup):
     """A material of the objects that an operator acts on."""
@@ -22,7 +24,7 @@ def offer(choices: bpy.types.bpy_prop_collection, objects: list[bpy.types.Object
         return
     materials = dict.fromkeys(slot.material for obj in objects for slot in obj.material_slots)
     for material in materials:
-        if material is not None and material.library is None:
+        if material is not None and library_of(material) is None:
             choice = choices.add()
             choice.name, choice.is_skin = material.name, material.skinglow.is_skin
 

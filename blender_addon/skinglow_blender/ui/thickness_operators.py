@@ -36,7 +36,8 @@ class SKINGLOW_OT_bake_thickness(_OnSkin, bpy.types.Operator):  # noqa: N801  Bl
         name="Size", default=1024, min=16, max=EVERY_TEXEL, subtype="PIXEL", description="Width and height of the image"
     )
     white_mm: FloatProperty(
-        name="White (mm)",
+        name="White",
+        subtype="DISTANCE_CAMERA",
         default=0.0,
         min=0.0,
         soft_max=100.0,
@@ -64,7 +65,8 @@ class SKINGLOW_OT_thickness_from_image(_OnSkin, bpy.types.Operator):  # noqa: N8
     bl_description = "Take the thickness of the active skin from the chosen image, at each vertex"
 
     white_mm: FloatProperty(
-        name="White (mm)",
+        name="White",
+        subtype="DISTANCE_CAMERA",
         default=0.0,
         min=0.0,
         soft_max=100.0,

@@ -7,7 +7,7 @@ import numpy as np
 import skinglow_blender as sb
 from skinglow_blender.read.scene_reading import ROW_PROPERTY
 from skinglow_blender.session import SESSION
-from skinglow_blender.skin_settings import SETTING_NAMES, SkinSettings
+from skinglow_blender.skin_settings import MEASURING_NAMES, SETTING_NAMES, SkinSettings
 
 from inside.bad_input import refused
 from inside.scenes import add_light, depsgraph, link, patch
@@ -57,6 +57,23 @@ def check_preset_is_a_menu(_work):
     sb.make_skin(obj, thickness=THIN, mode="physical")
     refused(TypeError, "not animatable", obj.keyframe_insert, "skinglow.preset")
     assert obj.keyframe_insert("skinglow.melanin_fraction")
+
+
+def check_how_thickness_is_measured_is_not_animated(_work):
+    """It is measured once: keys would do nothing."""
+    obj = patch()
+    sb.make_skin(obj, thickness=THIN, mode="physical")
+    for name in MEASURING_NAMES:
+        refused(TypeError, "not animatable", obj.keyframe_insert, f"skinglow.{name}")
+
+
+def check_lengths_are_in_mm(_work):
+    """The kind of length that Blender shows in mm."""
+    sb.register()
+    for operator in (bpy.ops.skinglow.bake_thickness, bpy.ops.skinglow.thickness_from_image, bpy.ops.skinglow.make):
+        properties = operator.get_rna_type().properties
+        white = properties["white_mm" if "white_mm" in properties else "unit_mm"]
+        assert white.unit == "CAMERA", (white.identifier, white.unit)
 
 
 def check_reset_keeps_how_it_was_measured(_work):
@@ -116,13 +133,44 @@ def check_library_overrides_keep_settings(work):
     assert all(settings[name].is_overridable for name in (*SETTING_NAMES, "enabled", "group", "row"))
 
 
-def check_linked_mesh_is_refused(work):
-    """A thickness stored in a library's mesh would be gone when the file is opened again."""
-    patch("Plain")
+def overridden(work, mesh=False):
+    """An override of an object of a library; its mesh may be overridden too."""
+    patch("Plain", material=bpy.data.materials.new("Surface"))
     bpy.ops.wm.save_as_mainfile(filepath=str(work / "plain.blend"))
     bpy.ops.wm.read_factory_settings(use_empty=True)
     with bpy.data.libraries.load(str(work / "plain.blend"), link=True) as (_source, target):
         target.objects = ["Plain"]
     override = link(target.objects[0]).override_create(remap_local_usages=True)
+    if mesh:
+        override.data = override.data.override_create()
+    return override
+
+
+def check_overridden_mesh_is_refused(work):
+    """An override keeps no attribute that is added to it: it would be gone when the file is opened."""
+    override = overridden(work, mesh=True)
+    assert override.data.library is None and override.data.override_library
+    for thickness in (None, THIN):
+        words = "plain.blend and cannot keep a thickness"
+        refused(sb.SkinError, words, sb.make_skin, override, thickness=thickness, mode="physical")
+        assert not override.skinglow.enabled and not bpy.data.node_groups
+
+
+def check_overridden_material_is_refused(work):
+    """Nor a node, with a mesh of its own that keeps a thickness."""
+    override = overridden(work)
+    override.data = override.data.copy()
+    override.data.materials[0] = bpy.data.materials["Surface"].override_create()
+    material = override.material_slots[0].material
+    assert material.library is None and material.override_library
+    for slots in (None, [0]):
+        words = "'Surface' of 'Plain' belongs to"
+        refused(sb.SkinError, words, sb.make_skin, override, thickness=THIN, slots=slots, mode="physical")
+        assert not override.skinglow.enabled and not bpy.data.node_groups
+
+
+def check_linked_mesh_is_refused(work):
+    """A thickness stored in a library's mesh would be gone when the file is opened again."""
+    override = overridden(work)
     refused(sb.SkinError, "cannot keep a thickness", sb.make_skin, override, mode="physical")
     assert not override.skinglow.enabled and not bpy.data.node_groups
