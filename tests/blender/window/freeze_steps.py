@@ -18,7 +18,7 @@ from skinglow_blender.session import SESSION  # noqa: E402
 from skinglow_blender.ui import freeze_panel, main_panel  # noqa: E402
 from window_steps import area_of, in_view, open_sidebar, press, run_steps, save_picture, wait_for  # noqa: E402
 
-PATIENCE = 120.0
+PATIENCE = 300  # a busy machine took more than 120
 FOLDER = Path(facts_file).parent
 
 
