@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -87,6 +89,13 @@ class Session:
         self.measuring: Measuring | None = None
         #: Light that a window is freezing to images, frame by frame.
         self.freezing: Freezing | None = None
+
+    def note_reshaped(self, keys: Iterable[str]) -> None:
+        """Has what was found of the thickness of skins looked at again: their meshes changed."""
+        for key in keys:
+            if key in self.thickness_faults:
+                self.thickness_faults[key] = (None, self.thickness_faults[key][1])
+                self.reshaped_at = time.monotonic()
 
     def forget_tables(self) -> None:
         """Drops all tables, so that the next update recomputes and shows every one."""

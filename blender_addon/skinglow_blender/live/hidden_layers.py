@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """View layers that were not shown while something was undone: Blender does not evaluate there what came back.
 
-What undo deletes and redo brings back is in another place of the memory. A layer that is shown evaluates that; in one
+What undo deletes and redo brings back has another address. A layer that is shown evaluates that; in one
 that is not, the copies from before stay, with the settings of before, and refer to the deleted originals (4.5 to 5.2).
 """
 
@@ -27,7 +27,7 @@ def evaluate_anew(depsgraph: bpy.types.Depsgraph) -> None:
     """Has Blender evaluate all data of such a layer. Not for handlers, which are called by what evaluates."""
     if not is_of_before(depsgraph):
         return
-    # Until a graph is built anew it knows what came back by its old place, and tags of that do not reach it.
+    # Until a graph is built anew it knows what came back by its old address, and tags of that do not reach it.
     depsgraph.update()
     for data in bpy.data.user_map():
         data.update_tag()

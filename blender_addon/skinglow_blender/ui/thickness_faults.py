@@ -13,6 +13,7 @@ from ..commands.health import quick_faults, thickness_faults, with_thickness_fau
 from ..commands.material_health import Fault, measured_slots
 from ..identity import key_of
 from ..live.guard import faults_shown, guarded
+from ..preferences import follows_lights
 from ..session import SESSION
 from .light_list import redraw_panels, view_layer_of
 
@@ -59,16 +60,12 @@ def _find_soon() -> float | None:
 
 @guarded
 def on_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    """Called after an edit: what was found of meshes that it changed is out of date."""
-    # Nothing was drawn yet, or nothing is evaluated that has a shape.
-    if not SESSION.thickness_faults or not depsgraph.id_type_updated("OBJECT"):
-        return
-    for update in depsgraph.updates:
-        if update.is_updated_geometry:
-            key = key_of(update.id)
-            if key in SESSION.thickness_faults:
-                SESSION.thickness_faults[key] = (None, SESSION.thickness_faults[key][1])
-                SESSION.reshaped_at = time.monotonic()
+    """Called after an edit while lights are not followed: else the edits' own handler notes what changed.
+
+    That reads Blender's report, which takes longer than all else of an idle edit, once.
+    """
+    if SESSION.thickness_faults and not follows_lights():
+        SESSION.note_reshaped(key_of(update.id) for update in depsgraph.updates if update.is_updated_geometry)
 
 
 def register() -> None:
