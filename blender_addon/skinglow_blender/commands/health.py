@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether everything that makes an object glow agrees: its nodes, images, materials, thickness and mesh."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 
 import bpy
 import numpy as np
@@ -60,10 +60,7 @@ def quick_faults(obj: bpy.types.Object) -> list[Fault]:
     if group is None:
         faults.append(Fault("Its node group was deleted", REPAIR))
     else:
-        if len(images_of(group)) != len(SLOTS):
-            faults.append(Fault("An image of its lookup was deleted", REPAIR))
-        if nodes_of(group).tiles and len(TILES.all_of(group)) != len(SLOTS):
-            faults.append(Fault("An image of its tiles was deleted", REPAIR))
+        faults += _group_faults(group)
         faults += material_faults(obj)
         if is_frozen(group):
             faults += _frozen_faults(obj, group)
@@ -89,6 +86,16 @@ def quick_faults(obj: bpy.types.Object) -> list[Fault]:
         # A hint: animation may squash and stretch it.
         faults.append(Fault("It was scaled unevenly after its thickness was measured", MEASURE, is_hint=True))
     return faults
+
+
+def _group_faults(group: bpy.types.NodeTree) -> Iterator[Fault]:
+    images = images_of(group)
+    if len(images) != len(SLOTS):
+        yield Fault("An image of its lookup was deleted", REPAIR)
+    elif group.library is None and images[0].library is not None:
+        yield Fault("Its node group was made local without its images", REPAIR)
+    if nodes_of(group).tiles and len(TILES.all_of(group)) != len(SLOTS):
+        yield Fault("An image of its tiles was deleted", REPAIR)
 
 
 def _has_reference(settings: bpy.types.PropertyGroup) -> bool:
@@ -140,8 +147,6 @@ def repair(obj: bpy.types.Object) -> None:
     settings = obj.skinglow
     if is_frozen(settings.group) and shown_image(settings.group) is None:
         unfreeze([obj])
-    if settings.group is not None and len(images_of(settings.group)) != len(SLOTS):
-        settings.property_unset("group")
     make_skin(obj)
 
 

@@ -21,10 +21,11 @@ from ..read.scene_reading import MEDIUM_PROPERTY, ROW_PROPERTY, read_skin
 from ..session import SESSION
 from ..setting_values import applied
 from ..show.frozen import is_frozen, read_frozen
+from ..show.group_nodes import make_whole
+from ..show.inner_groups import delete_group
 from ..show.lut_image import group_layout, image_pair, read_row, remove_images, shown_image
 from ..show.mask import fill_mask, remove_masks, store_masks
 from ..show.material_settings import clear_material, reset_material
-from ..show.skin_group import clear
 from ..show.skin_material import add_to_materials, choose_slots, chosen_materials
 from ..show.tile_image import OBJECT_PROPERTIES, TILES
 from ..skin_settings import MEASURING_NAMES, SETTING_NAMES
@@ -89,6 +90,7 @@ def make_skin(
         if choose is not None:
             choose()
         group = add_to_materials(obj, obj.skinglow.group)
+        make_whole(group)
         if obj.skinglow.group != group:
             obj.skinglow.group = group
             obj.skinglow.row = -1
@@ -216,8 +218,7 @@ def remove_skin(obj: bpy.types.Object) -> None:
         TILES.remove(group)
         remove_images(group)
         if group.users == 0:
-            clear(group)
-            bpy.data.node_groups.remove(group)
+            delete_group(group)
         SESSION.forget_tables()
     obj.update_tag(refresh={"OBJECT"})
 

@@ -4,7 +4,7 @@
 import bpy
 
 from ..show.frozen import add_frozen_nodes, is_frozen
-from ..show.group_nodes import build_nodes, nodes_of
+from ..show.group_nodes import build_nodes, make_whole, nodes_of
 from ..show.lut_image import GROUP_PROPERTY, GROUP_VERSION, skin_groups
 from ..thickness.thickness_attribute import mark_known
 
@@ -31,6 +31,7 @@ def upgrade() -> None:
         if is_frozen(group):
             add_frozen_nodes(group)
         group[GROUP_PROPERTY] = GROUP_VERSION
+        make_whole(group)
 
 
 def _keep_settings(settings: bpy.types.PropertyGroup) -> None:

@@ -11,7 +11,7 @@ from ..preferences import follows_lights
 from ..read import world_image
 from ..read.file_skins import skins_of_file
 from ..session import SESSION
-from ..show.group_following import follow_materials, remove_orphans, separate_copies
+from ..show.group_following import follow_materials, merge_copies, remove_orphans
 from ..show.lut_image import ROWS, skin_groups
 from ..show.mask import mask_groups, store_masks
 from ..show.tile_image import TILES
@@ -164,7 +164,7 @@ def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
     SESSION.undone_graphs.clear()
     follow_windows()  # loading clears subscriptions
     upgrade()
-    separate_copies()
+    merge_copies()
     if bpy.context.view_layer is not None and skins_of_file():
         update_scene(bpy.context.evaluated_depsgraph_get(), only_live=True)
     remove_orphans()

@@ -12,7 +12,8 @@ from ..read.scene_reading import Skin
 from ..session import SESSION
 from ..show.group_nodes import GroupNodes, build_nodes, nodes_of
 from ..show.image_pairs import have_room
-from ..show.lut_image import Atlas, ensure_images, images_of
+from ..show.inner_groups import has_inner_groups
+from ..show.lut_image import ROWS, Atlas, ensure_images, images_of
 from ..table.lut_layout import Layout, layout_of
 
 
@@ -24,6 +25,7 @@ def is_fixed(group: bpy.types.NodeTree) -> bool:
 def make_room(group: bpy.types.NodeTree, width: int, rows: int) -> list[bpy.types.Image]:
     """Enlarges the group's images if they are too small; returns them."""
     images = images_of(group)
+    ROWS.require(group, images)
     if have_room(images, width, rows):
         return images
     if SESSION.rendering:
@@ -46,6 +48,8 @@ def fit_nodes(group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy.t
             "its material has too few nodes for these lights, and nodes cannot be added while rendering: "
             "update before rendering"
         )
+    if not has_inner_groups(group):
+        raise SkinError("its node group lacks a part, or is of an earlier version: press Repair, or call make_skin")
     if wanted.layout is not None:
         ensure_images(group, wanted.layout.width, atlas.pixels.shape[0])
     build_nodes(group, wanted)

@@ -60,7 +60,7 @@ def frozen_file(group: bpy.types.NodeTree, frame: int) -> Path:
 def missing_file(group: bpy.types.NodeTree, frame: int) -> Path | None:
     """A file that a frozen group shows at a frame and that is not there."""
     wanted = _files(group, frame)
-    if TILES.shown(group) is None:
+    if group[FROZEN_PROPERTY].get("tiles") is None:
         del wanted[1:]
     return next((file for file in wanted if not file.is_file()), None)
 

@@ -10,11 +10,10 @@ import bpy
 from ..identity import key_of
 from ..read.file_skins import skins_of_file
 from ..session import SESSION
-from .group_nodes import build_nodes, nodes_of
-from .group_sockets import replace_group
+from .group_sockets import nodes_with, replace_group
 from .image_pairs import SLOTS, delete_images
+from .inner_groups import delete_group, remove_unused
 from .lut_image import FROZEN_PROPERTY, ROWS, images_of, skin_groups
-from .skin_group import clear, remove_unused
 from .skin_material import skin_node, skin_nodes
 from .tile_image import TILES
 
@@ -33,34 +32,33 @@ def follow_materials() -> bool:
     Returns whether anything was moved.
     """
     skins = skins_of_file()
-    again, moved = separate_copies(), True
+    again, moved = merge_copies(), True
     while moved:
         moved = any([_follow(obj) for obj in skins])
         again = again or moved
     return again
 
 
-def separate_copies() -> bool:
-    """Gives each group that was copied from another images and inner groups of its own; returns whether there was one.
+def merge_copies() -> bool:
+    """Has nodes with a copied group use the one that it was copied from; returns whether there were some.
 
-    The copy shows the images of the other, in which its skins would take the rows of the other's.
+    The copy shows the images of the other, in which its skins would take the rows of the other's. What users choose is
+    not in the group but in its nodes, and stays. A copy of a library's group was made local on purpose: make_whole.
     """
-    owners, separated = set(), False
+    owners: dict[bpy.types.Image, bpy.types.NodeTree] = {}
+    merged = False
     for group in sorted(skin_groups(), key=lambda group: group.library is None):
-        if FROZEN_PROPERTY in group:
-            continue
         images = images_of(group)
-        if not images or images[0] not in owners:
-            owners.update(images)
+        if FROZEN_PROPERTY in group or not images:
             continue
-        if group.library is None:
-            tiles = TILES.all_of(group)
-            build_nodes(group, nodes_of(group))
-            for kind, others in ((ROWS, images), (TILES, tiles)):
-                if others:
-                    kind.renew(group, *others[0].size)
-            separated = True
-    return separated
+        owner = owners.setdefault(images[0], group)
+        if owner == group or owner.library != group.library:
+            continue
+        for node in nodes_with(group):
+            if node.id_data.library is None:
+                replace_group(node, owner)
+                merged = True
+    return merged
 
 
 def _follow(obj: bpy.types.Object) -> bool:
@@ -97,8 +95,7 @@ def remove_orphans() -> None:
     """
     for group in skin_groups():
         if group.library is None and group.users == 0:
-            clear(group)
-            bpy.data.node_groups.remove(group)
+            delete_group(group)
     remove_unused(list(bpy.data.node_groups))
     kinds = [(kind, group) for kind in (ROWS, TILES) for group in skin_groups()]
     shown = {image for kind, group in kinds for image in [kind.shown(group), *kind.all_of(group)]}

@@ -5,10 +5,11 @@ from typing import NamedTuple
 
 import bpy
 
-from ..errors import core
 from ..table.lut_layout import Layout
+from .image_pairs import SLOTS
+from .inner_groups import clear, has_inner_groups
 from .lut_image import TILE_NODES_PROPERTY, TILES_ONLY, group_layout
-from .skin_group import build_plain, build_tiles
+from .skin_group import build_plain, build_tiles, image_widths
 from .surface_group import build_surface
 from .tile_image import TILES
 
@@ -28,12 +29,26 @@ def nodes_of(group: bpy.types.NodeTree) -> GroupNodes:
 
 
 def build_nodes(group: bpy.types.NodeTree, wanted: GroupNodes) -> None:
-    """Rebuilds a group's nodes; images are kept, those of tiles are made if there are none. Not while rendering."""
+    """Rebuilds a group's nodes; inner groups and images are kept. Not while rendering."""
     if not wanted.rows:
         build_tiles(group)
     elif wanted.layout is None:
         build_plain(group, wanted.tiles)
     else:
         build_surface(group, wanted.layout, wanted.tiles)
-    if wanted.tiles:
-        TILES.ensure(group, core().FaceTiles.WIDTH, 1)
+    if not wanted.tiles:
+        TILES.shrink(group)
+
+
+def make_whole(group: bpy.types.NodeTree) -> None:
+    """Makes the inner groups and images that a group lacks or has of a library. By operators only: inner_groups.py."""
+    if group.library is not None:
+        return
+    images = {kind: kind.all_of(group) for kind, _width in image_widths()}
+    is_made_local = any(image.library is not None for each in images.values() for image in each)
+    if is_made_local or not has_inner_groups(group):
+        clear(group, keep=not is_made_local)
+        build_nodes(group, nodes_of(group))
+    for kind, width in image_widths():
+        if is_made_local or len(images[kind]) != len(SLOTS):
+            kind.renew(group, width, 1)

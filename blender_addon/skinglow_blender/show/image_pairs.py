@@ -60,8 +60,7 @@ class GroupImages:
     ) -> tuple[bpy.types.Image, bpy.types.Image]:
         """The two images of a depsgraph mode, 'VIEWPORT' or 'RENDER'; images: all_of the group, if known."""
         images = self.all_of(group) if images is None else images
-        if len(images) != len(SLOTS):
-            raise SkinError(f"An image of the node group '{group.name}' was deleted: make the skin again to restore it")
+        self.require(group, images)
         return (images[2], images[3]) if mode == "RENDER" else (images[0], images[1])
 
     def has_room(self, group: bpy.types.NodeTree, width: int, rows: int) -> bool:
@@ -69,19 +68,32 @@ class GroupImages:
         return have_room(self.all_of(group), width, rows)
 
     def ensure(self, group: bpy.types.NodeTree, width: int, rows: int) -> None:
-        """Creates or enlarges a group's images to be that large. Not while rendering."""
+        """Enlarges a group's images to be that large. Raises SkinError if one is missing. Not while rendering."""
         images = self.all_of(group)
         if have_room(images, width, rows):
             return
-        if len(images) != len(SLOTS):
-            self.renew(group, width, rows)
-            return
+        self.require(group, images)
         width, rows = max(width, images[0].size[0]), max(power_of_two(rows), images[0].size[1])
         for image in images:
             image.scale(width, rows)
 
+    def shrink(self, group: bpy.types.NodeTree) -> None:
+        """Makes a group's images as low as new ones are: what nothing shows takes no memory. Not while rendering."""
+        for image in self.all_of(group):
+            if image.size[1] > FIRST_ROWS:
+                image.scale(image.size[0], FIRST_ROWS)
+
+    def require(self, group: bpy.types.NodeTree, images: list[bpy.types.Image]) -> None:
+        """Raises SkinError if some of a group's images are missing, or a library's where the group is not."""
+        if len(images) != len(SLOTS):
+            raise SkinError(f"An image of the node group '{group.name}' was deleted: press Repair, or call make_skin")
+        if group.library is None and images[0].library is not None:
+            raise SkinError(
+                f"The node group '{group.name}' was made local without its images: press Repair, or call make_skin"
+            )
+
     def renew(self, group: bpy.types.NodeTree, width: int, rows: int) -> None:
-        """Gives a group four new images of at least that size, empty until the next update. Not while rendering."""
+        """Gives a group four new images of at least that size, empty until the next update. By operators alone."""
         images = []
         try:
             for slot in SLOTS:

@@ -8,11 +8,10 @@ import numpy as np
 
 from ..table.lut_layout import LAYOUT_PROPERTY, Layout
 from .image_pairs import GroupImages, PairContents, read_pixels
+from .inner_groups import SURFACE_NODE, TEXEL_NODE
 
-#: The image nodes of a group for plain rows: the texel below a thickness and the one above.
-NODE_NAMES = ("LUT below", "LUT above")
-#: In a group that lights per pixel: the node of the inner group that reads a texel, and the image node in it.
-TEXEL_NODE, SURFACE_NODE = "LUT texel", "LUT"
+#: The image nodes of plain rows before version 4.
+EARLIER_NODES = ("LUT below", "LUT above")
 #: Custom property that marks our node groups, and the version of their nodes (file_upgrade.py).
 GROUP_PROPERTY = "skinglow"
 #: Custom property of a group that shows an image sequence (frozen.py), and the name of the image node that it adds.
@@ -21,7 +20,7 @@ HEADER_NODE = "LUT header"
 #: Custom property of a group with nodes for tiles (tile_image.py): whether it has those of the lookup too.
 TILE_NODES_PROPERTY = "skinglow_tile_nodes"
 TILES_ONLY, TILES_AND_ROWS = "only", "and rows"
-GROUP_VERSION = 3
+GROUP_VERSION = 4
 
 
 def is_skin_group(tree: bpy.types.NodeTree | None) -> bool:
@@ -30,21 +29,15 @@ def is_skin_group(tree: bpy.types.NodeTree | None) -> bool:
 
 
 def image_nodes(group: bpy.types.NodeTree) -> list[bpy.types.Node]:
-    """The nodes through which a group reads the image of its rows; empty if they were deleted.
-
-    Where there are tiles only, one node that nothing is connected to keeps the image.
-    """
-    # By the properties first: a look for a node by name goes through all of them.
+    """The nodes through which a group reads the image of its rows; empty if they were deleted."""
     group_nodes = group.nodes
-    header = [group_nodes[HEADER_NODE]] if FROZEN_PROPERTY in group and HEADER_NODE in group_nodes else []
-    if LAYOUT_PROPERTY in group:
-        texel = group_nodes.get(TEXEL_NODE)
-        tree = texel.node_tree if texel is not None else None
-        node = tree.nodes.get(SURFACE_NODE) if tree is not None else None
-        return [node, *header] if node is not None else []
-    names = NODE_NAMES[:1] if group.get(TILE_NODES_PROPERTY) == TILES_ONLY else NODE_NAMES
-    nodes = [group_nodes.get(name) for name in names]
-    return nodes + header if None not in nodes else []
+    # A look for a node by name goes through all of them, but this one is among the first.
+    texel = group_nodes.get(TEXEL_NODE)
+    tree = texel.node_tree if texel is not None else None
+    found = [tree.nodes.get(SURFACE_NODE)] if tree is not None else list(map(group_nodes.get, EARLIER_NODES))
+    if FROZEN_PROPERTY in group:
+        found.append(group_nodes.get(HEADER_NODE))
+    return [node for node in found if node is not None]
 
 
 def group_layout(group: bpy.types.NodeTree) -> Layout | None:

@@ -13,34 +13,32 @@ which the rows of different skins bleed into each other, and with 8-bit weights.
 A group whose skins are lit through their shape reads tiles instead (tile_group.py), or both, by what the object shows.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import NamedTuple
 
 import bpy
 
+from ..errors import core
 from ..read.scene_reading import ROW_PROPERTY
 from ..table.lut_layout import LAYOUT_PROPERTY
 from ..thickness.thickness_attribute import KNOWN_ATTRIBUTE, MIN_KNOWN, THICKNESS_ATTRIBUTE
 from .group_sockets import ensure_sockets
-from .image_pairs import delete_with_slots
+from .image_pairs import GroupImages
+from .inner_groups import TEXEL_NODE, clear, inner_groups_of
 from .lut_image import (
     GROUP_PROPERTY,
     GROUP_VERSION,
-    NODE_NAMES,
     ROWS,
     TILE_NODES_PROPERTY,
     TILES_AND_ROWS,
     TILES_ONLY,
-    ensure_images,
 )
 from .node_building import NodeBuilder, Socket
-from .tile_group import INNER_GROUP, add_tiles
+from .tile_group import add_tiles
 from .tile_image import TILES
 
 GROUP_NAME = "Skinglow"
-#: The inner groups of a group that lights per pixel (surface_group.py), and of tiles. Files hold them by these names.
-INNER_GROUPS = (".Skinglow texel", ".Skinglow lamp", ".Skinglow lamp with profile", INNER_GROUP)
 
 
 def new_group() -> bpy.types.NodeTree:
@@ -48,8 +46,14 @@ def new_group() -> bpy.types.NodeTree:
     group = bpy.data.node_groups.new(GROUP_NAME, "ShaderNodeTree")
     group[GROUP_PROPERTY] = GROUP_VERSION
     build_plain(group)
-    ensure_images(group, 256, 1)
+    for kind, width in image_widths():
+        kind.renew(group, width, 1)
     return group
+
+
+def image_widths() -> tuple[tuple[GroupImages, int], ...]:
+    """The kinds of images that every group has, and the width of each when it is new."""
+    return (ROWS, 256), (TILES, core().FaceTiles.WIDTH)
 
 
 class RowSockets:
@@ -70,6 +74,28 @@ class Light(NamedTuple):
     given: bpy.types.bpy_prop_collection  #: the group's own inputs
     strength: Socket  #: of the object
     known: Socket  #: 0 where there is nothing to show
+
+
+class Texels:
+    """Reads texels of the skin's row, through an inner group."""
+
+    def __init__(self, build: NodeBuilder, row: RowSockets) -> None:
+        self.build, self.row, self.inner = build, row, inner_groups_of(build.tree)[TEXEL_NODE]
+
+    def _node(self, texel: Socket | float) -> bpy.types.Node:
+        node = self.build.instance(self.inner, "Texel")
+        for name, value in (("Texel", texel), ("Texel width", self.row.texel_width), ("Row", self.row.row)):
+            self.build.set(node.inputs[name], value)
+        return node
+
+    def read(self, texel: int) -> tuple[Socket, Socket]:
+        """Color and alpha of a fixed texel."""
+        node = self._node(float(texel))
+        return node.outputs["Color"], node.outputs["Alpha"]
+
+    def read_at(self, texel: Socket) -> Socket:
+        """Color of a texel that depends on the pixel."""
+        return self._node(texel).outputs["Color"]
 
 
 def _own_row(build: NodeBuilder) -> bpy.types.Node:
@@ -100,21 +126,17 @@ def measured_thickness(build: NodeBuilder, given: Socket) -> tuple[Socket, Socke
 def rebuilding(group: bpy.types.NodeTree) -> Iterator[None]:
     """Context manager in which a skin group gets other nodes, which show the images that the former ones did.
 
-    Images that none of the new nodes shows are deleted.
+    Inner groups stay, but for those of an earlier version.
     """
     images = [(kind, kind.shown(group)) for kind in (ROWS, TILES)]
-    clear(group)
+    clear(group, keep=group[GROUP_PROPERTY] == GROUP_VERSION)
     ensure_sockets(group)
     for name in (LAYOUT_PROPERTY, TILE_NODES_PROPERTY):
         group.pop(name, None)
     yield
     for kind, image in images:
-        if image is None:
-            continue
-        if kind.nodes(group):
+        if image is not None:
             kind.show(group, image)
-        else:
-            delete_with_slots(image)
 
 
 def build_plain(group: bpy.types.NodeTree, tiles: bool = False) -> None:
@@ -122,18 +144,15 @@ def build_plain(group: bpy.types.NodeTree, tiles: bool = False) -> None:
     with rebuilding(group):
         build = NodeBuilder(group, -700.0, 200.0)
         row = RowSockets(build)
-        below = build.math("FLOOR", row.texel)
-        fraction = build.math("FRACT", row.texel)
-        colors = []
-        for name, offset in zip(NODE_NAMES, (0.5, 1.5), strict=True):
-            u = build.math("MULTIPLY", build.math("ADD", below, offset), row.texel_width)
-            colors.append(build.texel(build.combine(u, row.row), name).outputs["Color"])
-        step = build.vector("SUBTRACT", colors[1], colors[0])
-        finish(build, build.vector("MULTIPLY_ADD", step, fraction, colors[0]), row.light, tiles)
+        texels = Texels(build, row)
+        below, fraction = (build.math(operation, row.texel) for operation in ("FLOOR", "FRACT"))
+        lower, upper = texels.read_at(below), texels.read_at(build.math("ADD", below, 1.0))
+        step = build.vector("SUBTRACT", upper, lower)
+        finish(build, build.vector("MULTIPLY_ADD", step, fraction, lower), row.light, tiles)
 
 
 def build_tiles(group: bpy.types.NodeTree) -> None:
-    """Rebuilds a skin group's nodes for tiles alone. The image of the rows is kept by a node without connections."""
+    """Rebuilds a skin group's nodes for tiles alone."""
     with rebuilding(group):
         build = NodeBuilder(group, -700.0, 200.0)
         given = build.node("NodeGroupInput").outputs
@@ -141,23 +160,7 @@ def build_tiles(group: bpy.types.NodeTree) -> None:
         found = add_tiles(build)
         shown = build.math("MULTIPLY", found.there, found.use)
         finish(build, found.color, Light(given, strength, shown))
-        kept = build.node("ShaderNodeTexImage", "Keeps the lookup in the file")
-        kept.name = NODE_NAMES[0]
         group[TILE_NODES_PROPERTY] = TILES_ONLY
-
-
-def clear(group: bpy.types.NodeTree) -> None:
-    """Deletes a skin group's nodes, and the inner groups that nothing else uses."""
-    inner = {n.node_tree for n in group.nodes if n.bl_idname == "ShaderNodeGroup" and n.node_tree is not None}
-    group.nodes.clear()
-    remove_unused(inner)
-
-
-def remove_unused(trees: Iterable[bpy.types.NodeTree]) -> None:
-    """Deletes those of these trees that are inner groups and that nothing uses."""
-    for tree in trees:
-        if tree.library is None and tree.users == 0 and tree.name.startswith(INNER_GROUPS):
-            bpy.data.node_groups.remove(tree)
 
 
 def finish(build: NodeBuilder, color: Socket, light: Light, tiles: bool = False) -> None:

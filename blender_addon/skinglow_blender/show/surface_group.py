@@ -10,10 +10,10 @@ from functools import partial, reduce
 import bpy
 
 from ..table.lut_layout import LAYOUT_PROPERTY, Layout
-from .light_term_nodes import FarSide, LightTexels, light_irradiance
-from .lut_image import SURFACE_NODE, TEXEL_NODE
-from .node_building import NodeBuilder, Socket, inner_group
-from .skin_group import INNER_GROUPS, RowSockets, finish, rebuilding
+from .inner_groups import LIGHT_NODE, PROFILED_NODE, inner_groups_of
+from .light_term_nodes import FarSide, LightTexels
+from .node_building import NodeBuilder, Socket
+from .skin_group import RowSockets, Texels, finish, rebuilding
 
 
 def build_surface(group: bpy.types.NodeTree, layout: Layout, tiles: bool = False) -> None:
@@ -25,8 +25,8 @@ def build_surface(group: bpy.types.NodeTree, layout: Layout, tiles: bool = False
 
 def _build(group: bpy.types.NodeTree, layout: Layout, tiles: bool) -> None:
     build = NodeBuilder(group, -2400.0, 200.0)
-    row = RowSockets(build)
-    texels = _Texels(build, row, _texel_group())
+    row, inner = RowSockets(build), inner_groups_of(group)
+    texels = Texels(build, row)
     constant, depth_per_mm = texels.read(layout.constant)
     far = _far_side(build, row, depth_per_mm, tuple(texels.read(layout.angular + i)[0] for i in range(4)))
     parts = []
@@ -34,9 +34,9 @@ def _build(group: bpy.types.NodeTree, layout: Layout, tiles: bool) -> None:
         parts.append(_world(build, far, [texels.read(layout.polynomial + i)[0] for i in range(9)]))
     first = layout.terms
     for count, profiled in ((layout.plain, False), (layout.profiled, True)):
-        inner = _light_group(profiled) if count else None
         for i in range(count):
-            light_node = build.instance(inner, f"Light {i + 1}{' with profile' if profiled else ''}")
+            tree = inner[PROFILED_NODE if profiled else LIGHT_NODE]
+            light_node = build.instance(tree, f"Light {i + 1}{' with profile' if profiled else ''}")
             for k, part in enumerate(LightTexels.parts(profiled)):
                 color, alpha = texels.read(first + 4 * i + k)
                 build.set(light_node.inputs[part], color)
@@ -55,7 +55,7 @@ def _build(group: bpy.types.NodeTree, layout: Layout, tiles: bool) -> None:
     finish(build, _transmitted(build, row, texels, layout, light), row.light, tiles)
 
 
-def _transmitted(build: NodeBuilder, row: RowSockets, texels: "_Texels", layout: Layout, light: Socket) -> Socket:
+def _transmitted(build: NodeBuilder, row: RowSockets, texels: Texels, layout: Layout, light: Socket) -> Socket:
     """M(d) times the light, interpolated between the two entries next to the thickness."""
     last = float(layout.entries - 1)
     texel = build.math("MINIMUM", row.texel, last)
@@ -72,59 +72,6 @@ def _transmitted(build: NodeBuilder, row: RowSockets, texels: "_Texels", layout:
             else build.vector("MULTIPLY_ADD", column, channel, total)
         )
     return total
-
-
-class _Texels:
-    """Reads texels of the skin's row through the inner group."""
-
-    def __init__(self, build: NodeBuilder, row: RowSockets, inner: bpy.types.NodeTree) -> None:
-        self.build, self.row, self.inner = build, row, inner
-
-    def _node(self, texel: Socket | float) -> bpy.types.Node:
-        node = self.build.instance(self.inner, "Texel")
-        if TEXEL_NODE not in self.build.tree.nodes:
-            node.name = TEXEL_NODE
-        for name, value in (("Texel", texel), ("Texel width", self.row.texel_width), ("Row", self.row.row)):
-            self.build.set(node.inputs[name], value)
-        return node
-
-    def read(self, texel: int) -> tuple[Socket, Socket]:
-        """Color and alpha of a fixed texel."""
-        node = self._node(float(texel))
-        return node.outputs["Color"], node.outputs["Alpha"]
-
-    def read_at(self, texel: Socket) -> Socket:
-        """Color of a texel that depends on the pixel."""
-        return self._node(texel).outputs["Color"]
-
-
-def _texel_group() -> bpy.types.NodeTree:
-    build, entry = inner_group(
-        INNER_GROUPS[0],
-        {"Texel": "Float", "Texel width": "Float", "Row": "Float"},
-        {"Color": "Color", "Alpha": "Float"},
-    )
-    center = build.math("ADD", entry.outputs["Texel"], 0.5)
-    u = build.math("MULTIPLY", center, entry.outputs["Texel width"])
-    lookup = build.texel(build.combine(u, entry.outputs["Row"]), SURFACE_NODE)
-    out = build.node("NodeGroupOutput")
-    build.set(out.inputs["Color"], lookup.outputs["Color"])
-    build.set(out.inputs["Alpha"], lookup.outputs["Alpha"])
-    return build.tree
-
-
-def _light_group(profiled: bool) -> bpy.types.NodeTree:
-    inputs = {}
-    for part in LightTexels.parts(profiled):
-        inputs |= {part: "Vector", f"{part} 4": "Float"}
-    inputs |= {"far point": "Vector", "normal": "Vector"} | {f"angular {k}": "Vector" for k in range(4)}
-    build, entry = inner_group(INNER_GROUPS[2 if profiled else 1], inputs, {"Irradiance": "Vector"})
-    given = entry.outputs
-    light = LightTexels(*((given[part], given[f"{part} 4"]) for part in LightTexels.parts(profiled)))
-    far = FarSide(given["far point"], given["normal"], tuple(given[f"angular {k}"] for k in range(4)))
-    out = build.node("NodeGroupOutput")
-    build.set(out.inputs["Irradiance"], light_irradiance(build, light, far, profiled))
-    return build.tree
 
 
 def _far_side(build: NodeBuilder, row: RowSockets, depth_per_mm: Socket, angular: tuple[Socket, ...]) -> FarSide:

@@ -7,13 +7,11 @@ follow every modifier that keeps attributes, and no location in space is involve
 
 from typing import NamedTuple
 
-import bpy
-
 from ..thickness.tile_attribute import TEXEL_ATTRIBUTE
-from .node_building import NodeBuilder, Socket, inner_group
-from .tile_image import FIRST_TEXEL_PROPERTY, TEXEL_SIZE_PROPERTY, TILE_IMAGE_NODE, TILE_NODE
+from .inner_groups import TILE_NODE, inner_groups_of
+from .node_building import NodeBuilder, Socket
+from .tile_image import FIRST_TEXEL_PROPERTY, TEXEL_SIZE_PROPERTY
 
-INNER_GROUP = ".Skinglow tile"
 #: How far a tile's number may be from a whole one: faces between two tiles, which modifiers and edits make, interpolate
 #: it, and would show the texels of a third. Single precision keeps numbers up to a million to a sixteenth.
 MAX_ROUNDING = 0.1
@@ -33,12 +31,10 @@ def add_tiles(build: NodeBuilder) -> Tiles:
     first = build.attribute("OBJECT", FIRST_TEXEL_PROPERTY, "First texel, use").outputs
     size = build.attribute("OBJECT", TEXEL_SIZE_PROPERTY, "Size of a texel").outputs["Vector"]
     corner = build.vector("MULTIPLY_ADD", build.vector("FLOOR", texel), size, first["Vector"], label="Texel below")
-    inner = _tile_group()
+    inner = inner_groups_of(build.tree)[TILE_NODE]
     colors = []
     for step in (None, (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (1.0, 1.0, 0.0)):
         node = build.instance(inner, "Texel")
-        if not colors:
-            node.name = TILE_NODE
         at = corner if step is None else build.vector("MULTIPLY_ADD", size, step, corner)
         build.set(node.inputs["Texel"], at)
         colors.append(node.outputs["Color"])
@@ -48,10 +44,3 @@ def add_tiles(build: NodeBuilder) -> Tiles:
     nearest = build.math("MAXIMUM", build.math("ROUND", tile), 1.0)
     there = build.math("COMPARE", tile, nearest, MAX_ROUNDING, label="Within one tile")
     return Tiles(build.mix(lower, upper, y), there, first["Alpha"])
-
-
-def _tile_group() -> bpy.types.NodeTree:
-    build, entry = inner_group(INNER_GROUP, {"Texel": "Vector"}, {"Color": "Color"})
-    texel = build.texel(entry.outputs["Texel"], TILE_IMAGE_NODE)
-    build.set(build.node("NodeGroupOutput").inputs["Color"], texel.outputs["Color"])
-    return build.tree

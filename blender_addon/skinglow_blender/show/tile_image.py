@@ -16,10 +16,8 @@ from ..identity import key_of
 from ..session import SESSION
 from ..thickness.tile_attribute import rows_of
 from .image_pairs import GroupImages, PairContents, power_of_two
-from .lut_image import TILE_NODES_PROPERTY
+from .inner_groups import TILE_IMAGE_NODE, TILE_NODE
 
-#: The node of the inner group that reads a texel, and the image node in it.
-TILE_NODE, TILE_IMAGE_NODE = "Tile texel", "Tile"
 #: Custom property of a skin object: first row, width and height of a texel, and whether its tiles are shown, 1 or 0.
 TILE_PROPERTY = "skinglow_tiles"
 #: The same as its node group reads it, with as little arithmetic as can be: (u, v) of the center of its first texel, 0,
@@ -32,9 +30,7 @@ NO_RANGE = (-1, -1)
 
 
 def tile_nodes(group: bpy.types.NodeTree) -> list[bpy.types.Node]:
-    """The node through which a group reads the image of its tiles; empty if it has none."""
-    if TILE_NODES_PROPERTY not in group:
-        return []
+    """The node through which a group reads the image of its tiles, if it has those nodes; empty if it was deleted."""
     texel = group.nodes.get(TILE_NODE)
     node = texel.node_tree.nodes.get(TILE_IMAGE_NODE) if texel is not None and texel.node_tree is not None else None
     return [node] if node is not None else []

@@ -97,6 +97,7 @@ def go_on(folder, steps, beside):
     walk = LongWalk(state["seed"], folder, beside)
     version, numbers, gauss = state["random"]
     walk.random.setstate((version, tuple(numbers), gauss))
+    walk.ways.seed(f"{state['seed']} {state['step']} {state['tries']}")
     if state["tries"]:  # Blender ended in the steps that come now: others
         walk.random.seed(f"{state['seed']} {state['step']} {state['tries']}")
     bpy.ops.wm.open_mainfile(filepath=str(folder / state["blend"]))

@@ -61,7 +61,7 @@ def check_copied_material(work):
 
 
 def check_group_made_a_single_user(work):
-    """The number beside the group's name copies it with the images of the other in it."""
+    """The number beside the group's name copies it with the images of the other in it: its skin goes back to that."""
     thin, thick = expected(2.0, work), expected(4.0, work)
     for weights in ("object", "surface"):
         bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -71,7 +71,7 @@ def check_group_made_a_single_user(work):
         depsgraph()
         sb.update(depsgraph())
         require_separate(obj, other)
-        assert obj.skinglow.group != other.skinglow.group
+        assert obj.skinglow.group == other.skinglow.group
         for _ in range(2):
             np.testing.assert_allclose(alone(other, work), thick, rtol=1e-5 if weights == "object" else 1e-2)
             alone_thin = alone(obj, work)

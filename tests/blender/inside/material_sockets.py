@@ -6,8 +6,10 @@ import skinglow_blender as sb
 from skinglow_blender.live import file_upgrade
 from skinglow_blender.show import lut_image
 from skinglow_blender.show.group_sockets import SOCKETS
-from skinglow_blender.show.skin_group import build_plain, clear
+from skinglow_blender.show.inner_groups import remove_unused
+from skinglow_blender.show.skin_group import build_plain
 from skinglow_blender.show.skin_material import skin_node
+from skinglow_blender.show.tile_image import TILES
 from skinglow_blender.thickness.thickness_attribute import KNOWN_ATTRIBUTE, THICKNESS_ATTRIBUTE
 
 from inside.scenes import add_light, black_material, camera_above, depsgraph, patch, read_exr, render_settings
@@ -201,7 +203,7 @@ def check_another_group_keeps_what_is_connected(_work):
         )
     group[lut_image.GROUP_PROPERTY] = lut_image.GROUP_VERSION
     build_plain(group)
-    lut_image.ensure_images(group, 256, 1)
+    lut_image.renew_images(group, 256, 1)
     other = second.node_tree.nodes.new("ShaderNodeGroup")
     other.node_tree = group
     obj.data.materials[0], obj.data.materials[1] = second, obj.data.materials[0]
@@ -214,7 +216,9 @@ def check_another_group_keeps_what_is_connected(_work):
 def make_older(group):
     """Takes a group back to what the version before the sockets made."""
     image = lut_image.shown_image(group)
-    clear(group)
+    TILES.remove(group)
+    group.nodes.clear()
+    remove_unused(list(bpy.data.node_groups))
     if hasattr(group, "interface"):
         for item in [i for i in group.interface.items_tree if i.name not in ("Surface", "Shader")]:
             group.interface.remove(item)
@@ -222,7 +226,7 @@ def make_older(group):
         for sockets in (group.inputs, group.outputs):
             for socket in [s for s in sockets if s.name not in ("Surface", "Shader")]:
                 sockets.remove(socket)
-    for name in lut_image.NODE_NAMES:
+    for name in lut_image.EARLIER_NODES:
         texture = group.nodes.new("ShaderNodeTexImage")
         texture.name, texture.image = name, image
     group[lut_image.GROUP_PROPERTY] = 2

@@ -4,6 +4,7 @@ The seed is printed and is part of every failure; SKINGLOW_SEED repeats a walk, 
 """
 
 import os
+import random
 
 import bpy
 import numpy as np
@@ -27,11 +28,28 @@ from inside.walk_shape_edits import ShapeEdits
 TRACE = bool(os.environ.get("SKINGLOW_TRACE"))
 
 
+class EditAndStep(bpy.types.Operator):
+    """Runs an edit, and stores the undo step before it is evaluated, as every operator in a window does."""
+
+    bl_idname, bl_label, bl_options = "wm.skinglow_walk_edit", "Edit", {"REGISTER", "UNDO"}
+    run = staticmethod(lambda: None)
+
+    def execute(self, _context):
+        EditAndStep.run()
+        return {"FINISHED"}
+
+
+bpy.utils.register_class(EditAndStep)
+
+
 class Walk(ShapeEdits):
     """All edits, the steps of the walk, and what is compared after each."""
 
     def __init__(self, seed, folder):
         super().__init__(seed, folder)
+        #: Apart from the edits: which of them are made as in a window, and whether the last one was.
+        self.ways = random.Random(seed)
+        self.is_stored = False
         self.undoable = 0
         self.compared = self.late = 0
         self.tables = set()
@@ -151,13 +169,20 @@ class Walk(ShapeEdits):
         bpy.ops.ed.undo_push(message="step")
         self.undoable = min(self.undoable + 1, 20)
 
+    def as_in_a_window(self, edit):
+        """Runs an edit whose undo step lacks what the add-on's update then edits."""
+        EditAndStep.run = staticmethod(edit)
+        assert bpy.ops.wm.skinglow_walk_edit("EXEC_DEFAULT", True) == {"FINISHED"}
+        self.undoable = min(self.undoable + 1, 20)
+
     def undo(self):
         """One to three steps back, and sometimes some of them forth again.
 
-        What was edited is pushed before, as every operator in the interface does: undo over edits that no step
-        holds leaves Blender with dangling pointers of its own.
+        What was edited otherwise than in a window is pushed before: undo over edits that no step holds leaves Blender
+        with dangling pointers of its own.
         """
-        self.push_undo()
+        if not self.is_stored:
+            self.push_undo()
         steps = min(self.random.randint(1, 3), self.undoable - 1)
         for _ in range(steps):
             bpy.ops.ed.undo()
@@ -196,7 +221,12 @@ class Walk(ShapeEdits):
         edit = self.random.choice(seldom if self.random.random() < 0.12 else often)
         if TRACE:
             print(edit.__name__, flush=True)
-        edit()
+        stored = edit in often and edit not in (self.push_undo, self.undo) and self.ways.random() < 0.5
+        if stored:
+            self.as_in_a_window(edit)
+        else:
+            edit()
+        self.is_stored = stored
         return edit.__name__
 
     def settle(self):

@@ -5,7 +5,8 @@ import bpy
 import numpy as np
 import skinglow_blender as sb
 from skinglow_blender.live import handlers
-from skinglow_blender.show.group_nodes import GroupNodes, build_nodes, nodes_of
+from skinglow_blender.show.group_nodes import GroupNodes, build_nodes, make_whole, nodes_of
+from skinglow_blender.show.image_pairs import FIRST_ROWS
 from skinglow_blender.show.lut_image import LAYOUT_PROPERTY, images_of
 from skinglow_blender.show.tile_image import TILE_PROPERTY, TILES, place_tiles, set_tile_property, show_tiles
 from skinglow_blender.table.lut_layout import Layout
@@ -59,8 +60,8 @@ def check_tiles_and_rows_in_one_material(work):
         assert len(tiles) == len(images_of(group)) == 4
         build_nodes(group, GroupNodes())
         np.testing.assert_array_equal(render(work / "again.exr"), by_rows)
-        assert not [image for image in bpy.data.images if image.name.startswith(".Skinglow Tiles")]
-        assert not [tree for tree in bpy.data.node_groups if tree.name.startswith(".Skinglow tile")]
+        # They are kept, without what they held.
+        assert TILES.all_of(group) == tiles and {image.size[1] for image in tiles} == {FIRST_ROWS}
 
 
 def check_sockets(work):
@@ -154,7 +155,7 @@ def check_saved_and_removed(work):
 
 
 def check_deleted_image(work):
-    """It is told, and made anew where tiles are placed the next time."""
+    """It is told, and made anew by Repair."""
     left, _right = two_blocks()
     group = make_skins([left])
     with without_updates():
@@ -162,24 +163,25 @@ def check_deleted_image(work):
         assert not sb.health(left)
         bpy.data.images.remove(TILES.all_of(group)[3])
         assert [fault.what for fault in sb.health(left)] == ["An image of its tiles was deleted"]
+        make_whole(group)
         fill(group, [left], light=constant(0.25))
         assert not sb.health(left) and len(TILES.all_of(group)) == 4
         np.testing.assert_allclose(render(work / "anew.exr")[:, :8], 0.25, rtol=1e-6)
 
 
 def check_copied_group(work):
-    """A group made a single user gets tile images of its own."""
+    """A group made a single user shows the same images: its skin gets rows of its own in them."""
     left, right = two_blocks()
     group = make_skins([left, right])
     with without_updates():
         fill(group, [left, right], light=constant(0.25))
         right.data.materials[0] = right.active_material.copy()
         node = next(n for n in right.active_material.node_tree.nodes if n.bl_idname == "ShaderNodeGroup")
-        node.node_tree = other = group.copy()
+        node.node_tree = group.copy()
         sb.show.group_following.follow_materials()
-        assert right.skinglow.group == other and not {*TILES.all_of(group)} & {*TILES.all_of(other)}
-        assert len(TILES.all_of(group)) == len(TILES.all_of(other)) == 4
-        fill(other, [right], light=constant(0.5))
+        assert right.skinglow.group == node.node_tree == group and len(TILES.all_of(group)) == 4
+        fill(group, [left], light=constant(0.25))
+        fill(group, [right], light=constant(0.5))
         shown = render(work / "apart.exr")
         np.testing.assert_allclose(shown[:, :8], 0.25, rtol=1e-6)
         np.testing.assert_allclose(shown[:, 8:], 0.5, rtol=1e-6)

@@ -121,6 +121,8 @@ def check_deleted_images_come_back(_work):
         before = sb.lut(obj, depsgraph())
         bpy.data.images.remove(images_of(obj.skinglow.group)[slot])
         depsgraph()
+        assert [fault.what for fault in sb.health(obj)] == ["An image of its lookup was deleted"]
+        assert bpy.ops.skinglow.repair() == {"FINISHED"}
         assert sb.health(obj) == []
         np.testing.assert_array_equal(sb.lut(obj, depsgraph()), before)
 
