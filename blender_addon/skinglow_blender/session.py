@@ -8,6 +8,8 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    import bpy
+
     from .commands.freezing import Freezing
     from .commands.material_health import Fault
     from .live.newest_wins import NewestWins
@@ -89,6 +91,11 @@ class Session:
         self.measuring: Measuring | None = None
         #: Light that a window is freezing to images, frame by frame.
         self.freezing: Freezing | None = None
+
+    def reading_of(self, depsgraph: bpy.types.Depsgraph) -> SceneReading | None:
+        """What the last update read, if it was of that depsgraph."""
+        address, reading = self.reading or (None, None)
+        return reading if address == depsgraph.as_pointer() else None
 
     def note_reshaped(self, keys: Iterable[str]) -> None:
         """Has what was found of the thickness of skins looked at again: their meshes changed."""

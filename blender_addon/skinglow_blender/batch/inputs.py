@@ -66,7 +66,7 @@ def rig_inputs(
             obj.hide_render if ready.shown is None else None,
         ]
         for obj in sorted(light_objects(scene), key=lambda obj: obj.name)
-        if ready.shown is None or obj.name in ready.shown
+        if ready.shown is None or obj.name_full in ready.shown
     ]
     file = file_digests([ready.rig.file], folder)[ready.rig.file] if ready.rig.file is not None else None
     return {"rig": data_digest([ready.shown, lights, file, onto if file else None])}

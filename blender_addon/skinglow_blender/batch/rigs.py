@@ -50,8 +50,8 @@ class ReadyRig(NamedTuple):
     """A rig whose names and file have been checked."""
 
     rig: Rig
-    shown: tuple[str, ...] | None  #: names of the visible light objects; None: as in the scene
-    collections: tuple[str, ...]  #: names of the collections of the rig
+    shown: tuple[str, ...] | None  #: full names of the visible light objects; None: as in the scene
+    collections: tuple[str, ...]  #: full names of the collections of the rig
     found: Any  #: skinglow.LightRig of the file, or None
 
 
@@ -122,20 +122,36 @@ def make_ready(scene: bpy.types.Scene, rig: Rig) -> ReadyRig:
         rig = rig._replace(file=path)
     if rig.lights is None:
         return ReadyRig(rig, None, (), found)
-    lights = {obj.name: obj for obj in light_objects(scene)}
-    collections = {c.name: c for c in (scene.collection, *scene.collection.children_recursive)}
+    lights, collections = light_objects(scene), _collections_of(scene)
     shown: list[str] = []
     named: list[str] = []
     for name in rig.lights:
-        inside = [o.name for o in collections[name].all_objects if o.type == "LIGHT"] if name in collections else []
-        if not inside and name not in lights:
-            have = ", ".join(f"'{n}'" for n in sorted(lights)) or "none"
-            what = "contains no lights" if name in collections else "is neither a light nor a collection of lights"
+        collection, light = (_named(name, among, rig) for among in (collections, lights))
+        inside = [o.name_full for o in collection.all_objects if o.type == "LIGHT"] if collection is not None else []
+        if not inside and light is None:
+            have = ", ".join(f"'{n}'" for n in sorted(o.name_full for o in lights)) or "none"
+            what = "contains no lights" if collection is not None else "is neither a light nor a collection of lights"
             raise SkinError(f"Light rig '{rig.name}': '{name}' {what} of scene '{scene.name}'; its lights: {have}")
         if inside:
-            named.append(name)
-        shown += inside or [name]
+            named.append(collection.name_full)
+        shown += inside or [light.name_full]
     return ReadyRig(rig, tuple(dict.fromkeys(shown)), tuple(named), found)
+
+
+def _collections_of(scene: bpy.types.Scene) -> list[bpy.types.Collection]:
+    return [scene.collection, *scene.collection.children_recursive]
+
+
+def _named(name: str, among: list[bpy.types.ID], rig: Rig) -> bpy.types.ID | None:
+    """The one of that name; None: there is none. Raises SkinError if there are several.
+
+    Names are unique within a file only. The full name of what is linked has the file in brackets: that is unique.
+    """
+    found = [each for each in among if each.name_full == name] or [each for each in among if each.name == name]
+    if len(found) > 1:
+        names = ", ".join(f"'{each.name_full}'" for each in found)
+        raise SkinError(f"Light rig '{rig.name}': '{name}' may be {names}: give that name, or rename one in its file")
+    return found[0] if found else None
 
 
 def light_objects(scene: bpy.types.Scene) -> list[bpy.types.Object]:
@@ -162,12 +178,12 @@ def lit_by(scene: bpy.types.Scene, ready: ReadyRig, onto: tuple[float, float, fl
     """
     with ExitStack() as undo:
         if ready.shown is not None:
-            for name in ready.collections:
-                collection = bpy.data.collections.get(name)
-                for hiding in HIDING if collection is not None else ():
-                    _set(undo, collection, hiding, False)
+            for collection in _collections_of(scene):
+                if collection.name_full in ready.collections and collection != scene.collection:
+                    for hiding in HIDING:
+                        _set(undo, collection, hiding, False)
             for obj in light_objects(scene):
-                _show_only_if(undo, obj, obj.name in ready.shown)
+                _show_only_if(undo, obj, obj.name_full in ready.shown)
         notes = []
         if ready.found is not None:
             notes = undo.enter_context(added_lights(scene, ready.found, onto))
@@ -202,10 +218,10 @@ def check_lights(ready: ReadyRig, scene: bpy.types.Scene, lit: set[str]) -> None
     if ready.shown is None:
         return
     for obj in light_objects(scene):
-        here = obj.name in lit
-        if here and obj.name not in ready.shown and obj.name not in _added_names(scene):
+        here = obj.name_full in lit
+        if here and obj.name_full not in ready.shown and obj.name_full not in _added_names(scene):
             raise SkinError(f"light '{obj.name}' is not part of the rig and could not be hidden in the render")
-        if not here and obj.name in ready.shown and not blender_version.animation_curves(obj, "hide_render"):
+        if not here and obj.name_full in ready.shown and not blender_version.animation_curves(obj, "hide_render"):
             raise SkinError(
                 f"light '{obj.name}' of the rig is not in the render: a collection above it is disabled in renders or "
                 "excluded from the view layer"
@@ -213,4 +229,4 @@ def check_lights(ready: ReadyRig, scene: bpy.types.Scene, lit: set[str]) -> None
 
 
 def _added_names(scene: bpy.types.Scene) -> set[str]:
-    return {obj.name for obj in scene.collection.objects if ADDED in obj}
+    return {obj.name_full for obj in scene.collection.objects if ADDED in obj}

@@ -25,7 +25,7 @@ class Shown:
 
     def __init__(self) -> None:
         self.skins: list[dict[str, Any]] = []  #: for the manifest, one per skin and view layer
-        self.lights: set[str] = set()  #: names of the light objects in the render, instances included
+        self.lights: set[str] = set()  #: full names of the light objects in the render, instances included
         self.faults: list[str] = []
 
 
@@ -60,7 +60,8 @@ def watching(scene: bpy.types.Scene) -> Iterator[Shown]:
 
 
 def _record(shown: Shown, depsgraph: bpy.types.Depsgraph) -> None:
-    reading = with_visible_fractions(read_scene(depsgraph), depsgraph, {})
+    # The add-on's own handler has just read it.
+    reading = SESSION.reading_of(depsgraph) or with_visible_fractions(read_scene(depsgraph), depsgraph, {})
     shown.faults += SESSION.faults.values()
     shown.lights.update(light.object_name for light in reading.lights)
     for obj, _skin in reading.skins:

@@ -61,7 +61,8 @@ def export_povray(
     """
     what = _What(surface, compute_lut, _checked(frames))
     directory = Path(directory)
-    chosen = _chosen(read_scene(depsgraph), obj)
+    reading = read_scene(depsgraph)
+    chosen = _chosen(reading, obj)
     if depsgraph.scene.camera is None:
         raise SkinError("The scene has no camera: POV-Ray needs one")
     names = folder_names([skin.name for _original, skin in chosen])
@@ -74,7 +75,7 @@ def export_povray(
             for frame in range(what.frames[0], what.frames[1] + 1) if what.frames else (scene.frame_current,):
                 if what.frames:
                     scene.frame_set(frame)
-                reading = read_scene(depsgraph)
+                    reading = read_scene(depsgraph)
                 for (original, _skin), scene_files in zip(chosen, files, strict=True):
                     skin = _chosen(reading, original)[0][1]
                     notes.update(

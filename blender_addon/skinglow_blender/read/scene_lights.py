@@ -24,7 +24,7 @@ class SceneLight(NamedTuple):
     """One light; each instance of a light is one of its own."""
 
     name: str  #: for people: an instance is named after its light and its instancer
-    object_name: str  #: of the light object, also of an instance
+    object_name: str  #: full name of the light object, also of an instance: with the file that it is linked from
     shown_by: bpy.types.Object  #: what to select for it, of an instance its instancer; invalid after undo or load
     signature: tuple  #: everything its emission depends on (FIELDS); equal signatures emit equal light
     receivers: frozenset[str] | None  #: keys (Skin.key) of the only objects it lights; None: all
@@ -92,12 +92,12 @@ def read_light(
     receivers, excluded = _linked_objects(obj)
     unlit_reason = _unlit_reason(obj, light, kind, placement.direction)
     casts_shadows = blender_version.light_casts_shadows(light)
-    object_name = obj.name if instancer else name
     shown_by = (instancer or obj).original
     note = note or placement.note or gamut_note or (_eevee_note(light) if target == "EEVEE" else "")
     if not note and blender_version.has_shadow_linking(obj):
         note = "its shadow linking is ignored: all objects block it alike"
-    return SceneLight(name, object_name, shown_by, signature, receivers, excluded, unlit_reason, note, casts_shadows)
+    full_name = obj.name_full
+    return SceneLight(name, full_name, shown_by, signature, receivers, excluded, unlit_reason, note, casts_shadows)
 
 
 def make_light(light: SceneLight) -> Any:  # noqa: ANN401  a skinglow.Light

@@ -90,9 +90,7 @@ def fill_requested() -> int:
 
 def _last_reading(depsgraph: bpy.types.Depsgraph, updates: int) -> SceneReading | None:
     """What the update read for which the list was requested, if it was of that depsgraph: nothing changed since."""
-    if SESSION.reading is None or SESSION.updates != updates or SESSION.reading[0] != depsgraph.as_pointer():
-        return None
-    return SESSION.reading[1]
+    return SESSION.reading_of(depsgraph) if SESSION.updates == updates else None
 
 
 def _fill_soon() -> float | None:

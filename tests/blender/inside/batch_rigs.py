@@ -8,6 +8,7 @@ import numpy as np
 import skinglow as sg
 import skinglow_blender as sb
 
+from inside.bad_input import refused
 from inside.batch_studio import (
     DATA,
     RIGS,
@@ -178,6 +179,28 @@ def check_another_scene_and_linked_lights(work):
         picture = shown_in(work / f"other/{name}/0001.exr")
         np.testing.assert_allclose(picture, expected((color, 1.0)), rtol=1e-5, err_msg=name)
     assert_same(before)
+
+
+def check_lights_of_one_name(work):
+    """One of the file and two that are linked: a rig takes the one that it names, or says that it may be either."""
+    for color, file in (((1.0, 0.0, 0.0), "red.blend"), ((0.0, 1.0, 0.0), "green.blend")):
+        bpy.data.libraries.write(str(work / file), {add_light("Key", color=color), add_light("Rim", color=color)})
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene, _obj = studio()
+    add_light("Key", color=(0.0, 0.0, 1.0), location=(0.0, 0.0, 1.0))
+    for file in ("red.blend", "green.blend"):
+        with bpy.data.libraries.load(str(work / file), link=True) as (there, here):
+            here.objects = there.objects
+        for obj in here.objects:
+            scene.collection.objects.link(obj)
+    refused(sb.SkinError, "'Rim' may be 'Rim [", sb.render_batch, work / "both", 1, ["Rim"])
+    result = sb.render_batch(
+        work / "each", 1, {"own": ["Key"], "red": ["Key [red.blend]"], "green": ["Rim [green.blend]"]}
+    )
+    assert len(result.rendered) == 3, result
+    for name, color in (("own", (0, 0, 1)), ("red", (1, 0, 0)), ("green", (0, 1, 0))):
+        picture = shown_in(work / f"each/{name}/0001.exr")
+        np.testing.assert_allclose(picture, expected((color, 1.0)), rtol=1e-5, err_msg=name)
 
 
 def check_light_at_each_pixel_has_room_for_every_rig(work):
