@@ -148,6 +148,7 @@ class Walk(ShapeEdits):
         Not one of the random edits: with it walks would be others than those known to stay clear of Blender's own
         crashes over dependency cycles.
         """
+        self.is_stored = False
         obj, frame = next(iter(self.own_skins()), None), bpy.context.scene.frame_current
         if obj is None or not {slot.material for slot in obj.material_slots} - {None}:
             return
