@@ -32,6 +32,8 @@ class LongWalk(Walk):
     def __init__(self, seed, folder, beside):
         super().__init__(seed, folder)
         self.beside = beside
+        if beside:  # its handlers make datablocks, over which Blender crashes in undo
+            self.in_a_window = 0.0
         self.sizes = []
         self.steps_at_load = 0
 

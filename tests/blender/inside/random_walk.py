@@ -45,6 +45,9 @@ bpy.utils.register_class(EditAndStep)
 class Walk(ShapeEdits):
     """All edits, the steps of the walk, and what is compared after each."""
 
+    #: The share of the edits that are made as in a window.
+    in_a_window = 0.5
+
     def __init__(self, seed, folder):
         super().__init__(seed, folder)
         #: Apart from the edits: which of them are made as in a window, and whether the last one was.
@@ -222,7 +225,7 @@ class Walk(ShapeEdits):
         edit = self.random.choice(seldom if self.random.random() < 0.12 else often)
         if TRACE:
             print(edit.__name__, flush=True)
-        stored = edit in often and edit not in (self.push_undo, self.undo) and self.ways.random() < 0.5
+        stored = edit in often and edit not in (self.push_undo, self.undo) and self.ways.random() < self.in_a_window
         if stored:
             self.as_in_a_window(edit)
         else:
