@@ -125,21 +125,26 @@ def thickness_faults(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> l
     slots = measured_slots(obj)
     if obj.material_slots and not any(slots):
         return []
+    empty = [slot.material is None for slot in obj.material_slots]
+    has_empty_faces = False
     with evaluated_mesh(obj.evaluated_get(depsgraph)) as mesh:
+        if any(empty):
+            has_empty_faces = bool(vertices_of_slots(mesh, empty).any())
         _thickness, known = thickness_attribute.read(mesh)
         if not known.all() and not all(slots):
             known = known[vertices_of_slots(mesh, slots)]
+    faults = []
     if not known.all():
         share = np.count_nonzero(~known) / len(known)
-        return [
-            Fault(
-                f"The thickness is not known at {share:.1%} of the vertices shown, which do not glow",
-                MEASURE_APPLIED,
-            )
-        ]
-    if thickness_attribute.is_from_measurement(obj.data) and not thickness_attribute.is_of_this_mesh(obj):
-        return [Fault("Its mesh or its modifiers were edited after its thickness was measured", MEASURE)]
-    return []
+        what = f"The thickness is not known at {share:.1%} of the vertices shown, which do not glow"
+        faults.append(Fault(what, MEASURE_APPLIED))
+    elif thickness_attribute.is_from_measurement(obj.data) and not thickness_attribute.is_of_this_mesh(obj):
+        faults.append(Fault("Its mesh or its modifiers were edited after its thickness was measured", MEASURE))
+    if has_empty_faces:
+        faults.append(
+            Fault("Faces in a material slot that is empty do not glow", "give the slot a material", is_hint=True)
+        )
+    return faults
 
 
 def repair(obj: bpy.types.Object) -> None:

@@ -28,7 +28,7 @@ REASONS = {
     "blood_weight": "blood weight",
     "attenuation": "attenuation",
     "point": "reference point",
-    "weights": "weights",
+    "weights": "lighting",
     "surface": "its position or shape",
     "shape": "its position, size, cells or medium",
     "mesh": "its mesh",

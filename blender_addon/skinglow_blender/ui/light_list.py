@@ -29,7 +29,7 @@ class LightRow(bpy.types.PropertyGroup):
     kind: StringProperty()
     share: FloatProperty(name="Fraction", description="Fraction of all light on this skin, 0 to 1")
     weight: FloatVectorProperty(
-        name="Weight",
+        name="Light on the Skin",
         size=3,
         precision=4,
         description="Red, green and blue: color times attenuation, or irradiance in W/m^2 in Physical mode",

@@ -6,6 +6,7 @@ import bpy
 from ..commands.health import FREEZE_AGAIN, FREEZE_MORE, MEASURE_APPLIED
 from ..commands.material_health import CHOOSE_SHOWN_BY
 from ..identity import key_of
+from ..preferences import follows_lights
 from ..read.measured_geometry import unit_mm
 from ..session import SESSION
 from ..show.frozen import is_frozen
@@ -54,6 +55,9 @@ class _Main:
             return
         column.prop(obj.skinglow, "live", toggle=True)
         column.operator("skinglow.update", text="Update Now")
+        if not follows_lights():
+            text = "Lights are not followed: see Follow the Lights in the preferences of the add-on"
+            draw_wrapped(layout.column(align=True), text, context, icon="INFO")
 
 
 def _draw_faults_of_update(

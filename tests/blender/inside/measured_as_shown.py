@@ -116,6 +116,33 @@ def check_shape_keys_and_pose(_work):
     assert abs(measured(bent) - 2.0) < 1e-3
 
 
+def check_posed_armature(_work):
+    """As it is posed, or at rest where the armature shows that."""
+    armature = link(bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig")))
+    bpy.context.view_layer.objects.active = armature
+    bpy.ops.object.mode_set(mode="EDIT")
+    bone = armature.data.edit_bones.new("Bone")
+    bone.head, bone.tail = (0.0, 0.0, 0.0), (0.0, 0.0, SIDE)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    obj = plate()
+    obj.vertex_groups.new(name="Bone").add(range(len(obj.data.vertices)), 1.0, "REPLACE")
+    obj.modifiers.new("Rig", "ARMATURE").object = armature
+    assert abs(measured(obj) - 2.0) < 1e-3
+    # Along the bone, which is upright.
+    armature.pose.bones["Bone"].scale = (1.0, 2.0, 1.0)
+    depsgraph()
+    assert "Bone" in armature.pose.bones and abs(measured_anew(obj) - 4.0) < 1e-3
+    armature.data.pose_position = "REST"
+    depsgraph()
+    assert abs(measured_anew(obj) - 2.0) < 1e-3
+
+
+def measured_anew(obj):
+    """The same, measured although nothing of the mesh itself was edited."""
+    thickness_attribute.remove(obj.data)
+    return measured(obj)
+
+
 def shown_thickness(obj):
     """Median thickness in the middle as the material reads it, mm."""
     depsgraph()

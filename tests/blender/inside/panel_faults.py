@@ -129,3 +129,19 @@ def check_edit_mode_is_no_fault(_work):
     bpy.ops.object.mode_set(mode="OBJECT")
     depsgraph()
     assert panel(obj) == ("", [])
+
+
+def check_faces_in_an_empty_slot_are_told(_work):
+    """Blender shows its plain material there; a slot that no face has is no fault."""
+    obj = chosen_plate()
+    assert bpy.ops.skinglow.make() == {"FINISHED"}
+    obj.data.materials.append(None)
+    depsgraph()
+    assert panel(obj) == ("", [])
+    obj.data.polygons[0].material_index = 1
+    obj.data.update()
+    depsgraph()
+    text, buttons = panel(obj)
+    assert "material slot that is empty" in text and buttons == [], (text, buttons)
+    (fault,) = sb.health(obj)
+    assert fault.is_hint
