@@ -93,7 +93,7 @@ class Session:
         self.freezing: Freezing | None = None
 
     def reading_of(self, depsgraph: bpy.types.Depsgraph) -> SceneReading | None:
-        """What the last update read, if it was of that depsgraph."""
+        """What the last update read, if it was of that depsgraph and no change was reported since."""
         address, reading = self.reading or (None, None)
         return reading if address == depsgraph.as_pointer() else None
 

@@ -13,6 +13,7 @@
 
 #include "core/each_vector_target.h"
 #include "core/random_tissue.h"
+#include "core/rounds.h"
 
 namespace skinglow {
 namespace {
@@ -63,7 +64,7 @@ bool is_usable(const glm::dmat3& matrix) {
 TEST(SpectralNodes, PlatesOfAnyTissueAreCloseToTheTable) {
     std::mt19937 random(12);
     std::vector<double> errors;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < rounds(60); ++i) {
         const Tissue tissue = random_tissue(random);
         const glm::dvec3 error = error_on_plates(tissue, 4);
         errors.push_back(std::max({error.x, error.y, error.z}));

@@ -11,6 +11,7 @@ from ..identity import key_of
 from ..read.scene_lights import SceneLight, make_light
 from ..read.scene_reading import SceneReading, Skin, read_scene, read_skin
 from ..read.scene_world import World
+from ..session import SESSION
 from ..table.lut_layout import MAX_TERMS
 from ..table.occlusion import with_visible_fractions
 from .skin import skin_settings_of, table_of
@@ -35,12 +36,14 @@ def light_report(
     note      what of it is not supported, or ""
     object    key (identity.key_of) of the object to select for it: of an instance, its instancer; "" for the world
 
-    reading   the scene as it was just read from this depsgraph; None: it is read here
+    reading   the scene as it was just read from this depsgraph; None: as the last update read it, if nothing changed
     """
     skin_settings_of(obj)
     evaluated = obj.evaluated_get(depsgraph)
     skin = read_skin(evaluated, evaluated.matrix_world)
-    if reading is None:
+    reading = reading or SESSION.reading_of(depsgraph)
+    # What stands between a light and a skin that is hidden was not looked at.
+    if reading is None or not any(other.key == skin.key for _obj, other in reading.skins):
         reading = with_visible_fractions(read_scene(depsgraph)._replace(skins=[(obj, skin)]), depsgraph, {})
     lights = reading.lights
     far_lights = _far_lights(obj, depsgraph)

@@ -87,7 +87,8 @@ def _shows_the_same(a: Shown, b: Shown) -> bool:
 
 
 def _rows_shown(depsgraph: bpy.types.Depsgraph) -> Iterator[tuple[bpy.types.Object, Shown]]:
-    for obj, skin in SESSION.reading[1].skins:
+    reading = SESSION.reading_of(depsgraph)
+    for obj, skin in reading.skins if reading is not None else ():
         group = obj.skinglow.group
         atlas = SESSION.atlases.get((key_of(group), depsgraph.mode)) if group is not None else None
         if atlas is not None and skin.key in atlas.tables:

@@ -45,14 +45,18 @@ def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
     # What is known is put back where it still holds.
     address = depsgraph.as_pointer()
     known = SESSION.known.pop(address, None)
+    reading, SESSION.reading = SESSION.reading, None
     if not follows_lights():
         return
     changes = changes_of(depsgraph, known)
     SESSION.note_reshaped(map(key_of, changes.reshaped))
     if not changes.objects and known is not None:
         SESSION.known[address] = known
+    if not any(changes):
+        SESSION.reading = reading
+        return
     # Asked last: most edits concern no skin.
-    if not any(changes) or not is_shown(depsgraph):
+    if not is_shown(depsgraph):
         return
     SESSION.may_lack_tiles |= changes.objects or bool(changes.reshaped)
     if is_of_before(depsgraph):
@@ -79,6 +83,7 @@ def on_frame_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> N
         # has read it.
         return
     known = SESSION.known.pop(depsgraph.as_pointer(), None)
+    SESSION.reading = None
     if not is_shown(depsgraph):
         return
     if is_of_before(depsgraph):

@@ -5,7 +5,10 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import skinglow_blender as sb
+from skinglow_blender.commands import light_listing
 from skinglow_blender.identity import key_of
+from skinglow_blender.live import handlers
+from skinglow_blender.preferences import follows_lights
 from skinglow_blender.session import SESSION
 from skinglow_blender.ui import light_list
 from skinglow_blender.ui.lights_panel import length_text
@@ -145,3 +148,33 @@ def check_distances_in_units_of_the_scene(_work):
     assert length_text(0.21134567, bpy.context.scene) == "21.13 cm"
     units.system = "NONE"
     assert length_text(0.21134567, bpy.context.scene) == "0.2113"
+
+
+def check_a_report_takes_what_the_update_read(_work):
+    """The scene is read once for both; anew where no update followed a change, and for a skin that is hidden."""
+    key = add_light("Key")
+    obj = skin()
+    reads = []
+    read_scene = light_listing.read_scene
+    light_listing.read_scene = lambda *given: reads.append(given) or read_scene(*given)
+
+    def told():
+        del reads[:]
+        (row,) = sb.light_report(obj, depsgraph())
+        return row["weight"].tolist(), len(reads)
+
+    try:
+        white = [0.5, 0.5, 0.5]
+        assert told() == (white, 0)
+        key.data.color = (1.0, 0.0, 0.0)
+        assert told() == ([0.5, 0.0, 0.0], 0)
+        handlers.follows_lights = lambda: False
+        key.data.color = (1.0, 1.0, 1.0)
+        assert told() == (white, 1)
+        handlers.follows_lights = follows_lights
+        sb.update(depsgraph())
+        assert told() == (white, 0)
+        obj.hide_set(True)
+        assert told() == (white, 1)
+    finally:
+        light_listing.read_scene, handlers.follows_lights = read_scene, follows_lights

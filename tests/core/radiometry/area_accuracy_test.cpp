@@ -10,6 +10,7 @@
 #include "radiometry/area_irradiance.h"
 #include "radiometry/prepared_light.h"
 #include "random_lights.h"
+#include "rounds.h"
 
 using namespace skinglow;
 
@@ -185,7 +186,7 @@ void compare(RandomScene& random, AreaShape shape, double aspect) {
 
 TEST(AreaIrradiance, ToleranceIsKept) {
     RandomScene random(2);
-    for (int i = 0; i < 24; ++i)
+    for (int i = 0; i < rounds(24); ++i)
         compare(random, random.one_in(2) ? AreaShape::ellipse : AreaShape::rectangle,
                 random.decades(1e-3, 1.0));
 }
@@ -193,7 +194,7 @@ TEST(AreaIrradiance, ToleranceIsKept) {
 TEST(AreaIrradiance, HoweverThin) {
     RandomScene random(3);
     for (const double aspect : {9e-3, 1e-3, 3e-4, 9e-5, 1e-6, 1e-8}) {
-        for (int i = 0; i < 8; ++i) {
+        for (int i = 0; i < rounds(8); ++i) {
             compare(random, AreaShape::ellipse, aspect);
             compare(random, AreaShape::rectangle, aspect);
         }

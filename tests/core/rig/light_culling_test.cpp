@@ -10,6 +10,7 @@
 
 #include "random_lights.h"
 #include "rig/light_bounds.h"
+#include "rounds.h"
 
 using namespace skinglow;
 
@@ -139,7 +140,7 @@ TEST(LightBounds, ObjectWeightErrorHolds) {
 TEST(LightCulling, BoundIsNeverExceeded) {
     RandomScene random(14);
     std::size_t dropped_in_all = 0;
-    for (int trial = 0; trial < 400; ++trial) {
+    for (int trial = 0; trial < rounds(400); ++trial) {
         const std::vector<Light> lights = random.lights(1 + static_cast<int>(random.between(0, 120)));
         const Box box = random_box(random);
         const double tolerance = random.decades(1e-6, 10.0);
@@ -166,7 +167,7 @@ TEST(LightCulling, BoundIsNeverExceeded) {
             for (int c = 0; c < 3; ++c) EXPECT_LE(std::abs(surface[c]), result.bound[c] + 1e-15) << trial;
         }
     }
-    EXPECT_GT(dropped_in_all, 5000U);  // the property is not empty
+    EXPECT_GT(dropped_in_all, static_cast<std::size_t>(rounds(5000)));  // the property is not empty
 }
 
 TEST(LightCulling, WithoutToleranceOnlyWhatGivesNothingGoes) {

@@ -11,6 +11,7 @@
 
 #include "each_vector_target.h"
 #include "random_lights.h"
+#include "rounds.h"
 
 using namespace skinglow;
 
@@ -51,7 +52,7 @@ double kernel_error(const FlatLight& light, const glm::dvec3& point) {
 TEST(SurfaceIrradiance, IsTheSumOfIrradianceForEveryKindAndPoint) {
     for_each_vector_target([] {
         RandomScene random(7);
-        for (int trial = 0; trial < 60; ++trial) {
+        for (int trial = 0; trial < rounds(60); ++trial) {
             const Surface surface = random_surface(random, 61);
             const FlatLight light = random.light();
             const auto all = surface_irradiance({light}, surface.points, surface.normals);
@@ -144,7 +145,7 @@ TEST(SurfaceIrradiance, ASunAcrossTheHorizonIsExactToRounding) {
 
 TEST(SurfaceIrradiance, AddsLightsAndEnvironmentOnAnyNumberOfThreads) {
     RandomScene random(8);
-    const Surface surface = random_surface(random, 1000);
+    const Surface surface = random_surface(random, static_cast<std::size_t>(rounds(1000)));
     const std::vector<Light> lights = random.lights(20);
     const Environment environment(glm::dvec3(0.1, 0.2, 0.3));
     SurfaceOptions options{.environment = &environment, .threads = 1};

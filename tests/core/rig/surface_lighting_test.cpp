@@ -10,6 +10,7 @@
 
 #include "random_lights.h"
 #include "rig/rig_data.h"
+#include "rounds.h"
 
 using namespace skinglow;
 
@@ -240,7 +241,7 @@ TEST(SurfaceLighting, SurvivesWhateverLightsThereAre) {
 TEST(ObjectWeightError, HoldsForEveryPointAndNormalOfTheCone) {
     RandomScene random(10);
     int tight = 0;
-    for (int trial = 0; trial < 400; ++trial) {
+    for (int trial = 0; trial < rounds(400); ++trial) {
         const std::vector<Light> lights = random.lights(1 + trial % 4);
         const NormalCone cone{random.unit_vector(), random.between(0, 1.5)};
         const glm::dvec3 here = object_irradiance(lights, head.center());
@@ -255,7 +256,7 @@ TEST(ObjectWeightError, HoldsForEveryPointAndNormalOfTheCone) {
         }
         if (bound.g < here.g) ++tight;
     }
-    EXPECT_GT(tight, 20);
+    EXPECT_GT(tight, rounds(20));
 }
 
 TEST(ObjectWeightError, IsSmallForAFlatPatchThatFacesADistantLight) {

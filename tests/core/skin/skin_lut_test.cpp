@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "random_tissue.h"
+#include "rounds.h"
 
 namespace skinglow {
 namespace {
@@ -35,7 +36,7 @@ TEST(SkinLut, ReferenceIsTheSpectralSumAtEveryEntry) {
 TEST(SkinLut, EstimateBoundsTheErrorOnRandomSkins) {
     std::mt19937 random(2024);
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
-    for (int trial = 0; trial < 30; ++trial) {
+    for (int trial = 0; trial < rounds(30); ++trial) {
         const Tissue tissue = random_tissue(random);
         const double max_thickness_mm = 1.0 + 19.0 * uniform(random);
         const double tolerance = std::pow(10.0, -1.0 - 3.0 * uniform(random));
