@@ -59,8 +59,8 @@ class LongWalk(Walk):
 
     def require_few_unused(self):
         """An edit that leaves a datablock whenever it is made, or one that leaves several, is seen here."""
-        edits, left = len(self.done) - self.steps_at_load, unused()
-        self.steps_at_load = len(self.done)
+        edits, left = len(self.done) - self.steps_at_load, unused() - self.copies
+        self.steps_at_load, self.copies = len(self.done), 0
         assert left <= UNUSED_AT_MOST + edits * UNUSED_PER_EDIT, f"{left} of ours are unused after {edits} edits"
 
     def save_and_load(self):

@@ -16,6 +16,7 @@ class SceneEdits:
         self.random = random.Random(seed)
         self.folder = folder
         self.undone = False
+        self.copies = 0  #: of node groups, since the file was loaded
 
     # What there is.
     def objects(self, kind):

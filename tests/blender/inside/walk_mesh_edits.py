@@ -108,10 +108,14 @@ class MeshEdits(SceneEdits):
         return self.pick([(o, n) for o, n in pairs if not n.node_tree.library]) or (None, None)
 
     def copy_group(self):
-        """The node group of one material made a single user, as the number beside its name does."""
+        """The node group of one material made a single user, as the number beside its name does.
+
+        Its node goes back to the other group, and nothing uses the copy any more.
+        """
         _obj, node = self.own_nodes()
         if node is not None and len(bpy.data.node_groups) < 20:
             node.node_tree = node.node_tree.copy()
+            self.copies += 1
 
     def copy_material(self):
         obj, node = self.own_nodes()
