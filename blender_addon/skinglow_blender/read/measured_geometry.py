@@ -27,6 +27,11 @@ MOVING_NOTHING = frozenset(
     "COLLISION DATA_TRANSFER NORMAL_EDIT PARTICLE_SYSTEM UV_PROJECT UV_WARP VERTEX_WEIGHT_EDIT VERTEX_WEIGHT_MIX "
     "VERTEX_WEIGHT_PROXIMITY WEIGHTED_NORMAL".split()
 )
+#: Geometry nodes that pass geometry on with its vertices where they are: *Smooth by Angle* consists of these.
+PASSING_ON = frozenset(
+    "GeometryNodeRemoveAttribute GeometryNodeSetMaterial GeometryNodeSetMaterialIndex GeometryNodeSetShadeSmooth "
+    "GeometryNodeStoreNamedAttribute GeometryNodeSwitch NodeGroupInput NodeGroupOutput NodeReroute".split()
+)
 
 
 def unit_mm(obj: bpy.types.Object, scene: bpy.types.Scene) -> float:
@@ -82,9 +87,23 @@ def mesh_digest(obj: bpy.types.Object) -> str:
     """A digest of a mesh without its modifiers, and of the kinds of those that may move its vertices."""
     state = hashlib.sha256(vertices_of(obj.data).tobytes())
     state.update(triangles_of(obj.data).tobytes())
-    kinds = (m.type for m in obj.modifiers if m.show_viewport)
-    state.update(" ".join(kind for kind in kinds if kind not in MOVING_NOTHING).encode())
+    state.update(" ".join(m.type for m in obj.modifiers if m.show_viewport and not _moves_nothing(m)).encode())
     return state.hexdigest()
+
+
+def _moves_nothing(modifier: bpy.types.Modifier) -> bool:
+    return modifier.type in MOVING_NOTHING or (modifier.type == "NODES" and _passes_on(modifier.node_group))
+
+
+def _passes_on(tree: bpy.types.NodeTree | None) -> bool:
+    """Whether the vertices stay where they are, judged by which nodes there are."""
+    for node in tree.nodes if tree is not None else ():
+        if not any(socket.type == "GEOMETRY" for socket in node.outputs):
+            continue
+        is_group = node.bl_idname == "GeometryNodeGroup"
+        if not (_passes_on(node.node_tree) if is_group else node.bl_idname in PASSING_ON):
+            return False
+    return True
 
 
 def _shown_as(obj: bpy.types.Object, shown: np.ndarray) -> np.ndarray | None:

@@ -116,6 +116,41 @@ def check_shape_keys_and_pose(_work):
     assert abs(measured(bent) - 2.0) < 1e-3
 
 
+def geometry_nodes(obj, *kinds):
+    """A modifier of these nodes, one behind the other."""
+    tree = bpy.data.node_groups.new("Nodes", "GeometryNodeTree")
+    for in_out in ("INPUT", "OUTPUT"):
+        if hasattr(tree, "interface"):
+            tree.interface.new_socket("Geometry", in_out=in_out, socket_type="NodeSocketGeometry")
+        else:
+            (tree.inputs if in_out == "INPUT" else tree.outputs).new("NodeSocketGeometry", "Geometry")
+    before = tree.nodes.new("NodeGroupInput")
+    for kind in (*kinds, "NodeGroupOutput"):
+        node = tree.nodes.new(kind)
+        tree.links.new(before.outputs[0], node.inputs[0])
+        before = node
+    obj.modifiers.new("Nodes", "NODES").node_group = tree
+
+
+def check_smooth_shading_by_nodes_is_no_edit(_work):
+    """*Shade Auto Smooth* adds geometry nodes, which move nothing; others may."""
+    obj = plate()
+    sb.make_skin(obj)
+    geometry_nodes(obj, "GeometryNodeSetShadeSmooth", "GeometryNodeStoreNamedAttribute")
+    depsgraph()
+    assert sb.health(obj) == []
+    if bpy.app.version >= (5, 0):  # 4.5 loads its asset in a window alone, 3.4 has none
+        bpy.context.view_layer.objects.active = obj
+        obj.select_set(True)
+        assert bpy.ops.object.shade_auto_smooth() == {"FINISHED"}
+        depsgraph()
+        assert [m.type for m in obj.modifiers] == ["NODES", "NODES"] and sb.health(obj) == []
+    geometry_nodes(obj, "GeometryNodeSetPosition")
+    depsgraph()
+    (fault,) = sb.health(obj)
+    assert "modifiers were edited" in fault.what
+
+
 def check_posed_armature(_work):
     """As it is posed, or at rest where the armature shows that."""
     armature = link(bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig")))
