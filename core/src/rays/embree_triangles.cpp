@@ -212,7 +212,7 @@ void require_embree(long version_major, long filter_functions) {
     if (version_major != RTC_VERSION_MAJOR) {
         fail("version " + std::to_string(version_major) +
              " answers in this process, but this was built for version " + std::to_string(RTC_VERSION_MAJOR) +
-             "; load skinglow through `import skinglow`, or build it with a static Embree");
+             "; build it with a static Embree, as its packages have");
     }
     // Embree stores a filter that it was built not to call, and reports nothing.
     if (filter_functions == 0) {
