@@ -20,26 +20,13 @@ from inside.scenes import (
     patch,
     render_settings,
 )
+from inside.stored_edits import edit_and_store
 from inside.walk_files import LIBRARY, THIN, expected, require_images_in_use, write_library
 from inside.walk_mesh_edits import skin_nodes
 from inside.walk_shape_edits import ShapeEdits
 
 #: Names each edit as it comes: for a Blender that crashes.
 TRACE = bool(os.environ.get("SKINGLOW_TRACE"))
-
-
-class EditAndStep(bpy.types.Operator):
-    """Runs an edit, and stores the undo step before it is evaluated, as every operator in a window does."""
-
-    bl_idname, bl_label, bl_options = "wm.skinglow_walk_edit", "Edit", {"REGISTER", "UNDO"}
-    run = staticmethod(lambda: None)
-
-    def execute(self, _context):
-        EditAndStep.run()
-        return {"FINISHED"}
-
-
-bpy.utils.register_class(EditAndStep)
 
 
 class Walk(ShapeEdits):
@@ -173,12 +160,6 @@ class Walk(ShapeEdits):
         bpy.ops.ed.undo_push(message="step")
         self.undoable = min(self.undoable + 1, 20)
 
-    def as_in_a_window(self, edit):
-        """Runs an edit whose undo step lacks what the add-on's update then edits."""
-        EditAndStep.run = staticmethod(edit)
-        assert bpy.ops.wm.skinglow_walk_edit("EXEC_DEFAULT", True) == {"FINISHED"}
-        self.undoable = min(self.undoable + 1, 20)
-
     def undo(self):
         """One to three steps back, and sometimes some of them forth again.
 
@@ -227,7 +208,8 @@ class Walk(ShapeEdits):
             print(edit.__name__, flush=True)
         stored = edit in often and edit not in (self.push_undo, self.undo) and self.ways.random() < self.in_a_window
         if stored:
-            self.as_in_a_window(edit)
+            edit_and_store(edit)
+            self.undoable = min(self.undoable + 1, 20)
         else:
             edit()
         self.is_stored = stored

@@ -1,6 +1,6 @@
-"""Undo and redo in the order that a window has: the edit, its undo step, and only then the update of the skins.
+"""Undo and redo of edits after which the update of the skins needs other nodes (stored_edits.py).
 
-What the update edits no step holds. Blender 4.5 to 5.2 crash in an undo where that made a datablock that another points
+What the update edits is in no step. Blender 4.5 to 5.2 crash in an undo where that made a datablock that another points
 to, without any add-on too.
 """
 
@@ -12,31 +12,11 @@ from skinglow_blender.show.group_nodes import nodes_of
 from skinglow_blender.show.lut_image import images_of
 
 from inside.scenes import add_light, black_material, depsgraph
+from inside.stored_edits import edit_and_store
 from inside.tile_scenes import block
 from inside.walk_files import THIN, expected
 
 sb.register()
-
-
-class Edit(bpy.types.Operator):
-    """Runs what `Edit.run` is, and stores an undo step, as every operator of the interface does."""
-
-    bl_idname, bl_label, bl_options = "wm.skinglow_test_edit", "Edit", {"REGISTER", "UNDO"}
-    run = staticmethod(lambda: None)
-
-    def execute(self, _context):
-        Edit.run()
-        return {"FINISHED"}
-
-
-bpy.utils.register_class(Edit)
-
-
-def edit(run):
-    """One edit by a user."""
-    Edit.run = staticmethod(run)
-    # The step is stored before anything is evaluated.
-    bpy.ops.wm.skinglow_test_edit("EXEC_DEFAULT", True)
 
 
 def skin():
@@ -66,7 +46,7 @@ def begin(weights):
     depsgraph()
     # Without a window there are no steps before this.
     bpy.ops.ed.undo_push(message="begin")
-    edit(lambda: add_light("Fill", location=(5.0, 0.0, -30.0)))
+    edit_and_store(lambda: add_light("Fill", location=(5.0, 0.0, -30.0)))
     require_fresh()
 
 
@@ -77,7 +57,7 @@ def there_and_back(edits):
     """
     nodes = {nodes_of(skin().skinglow.group)}
     for run in edits:
-        edit(run)
+        edit_and_store(run)
         require_fresh()
         nodes.add(nodes_of(skin().skinglow.group))
     for step in (bpy.ops.ed.undo, bpy.ops.ed.redo) * 2:
@@ -125,8 +105,8 @@ def check_a_deleted_image(_work):
     begin("object")
     if bpy.app.version[:2] == (5, 0):
         return  # crashes over any image that another one's custom property points to, also without the add-on
-    edit(lambda: bpy.data.images.remove(images_of(skin().skinglow.group)[3]))
-    edit(set_weights("SURFACE"))
+    edit_and_store(lambda: bpy.data.images.remove(images_of(skin().skinglow.group)[3]))
+    edit_and_store(set_weights("SURFACE"))
     depsgraph()
     assert [fault.what for fault in sb.health(skin())] == ["An image of its lookup was deleted"]
     for step in (bpy.ops.ed.undo, bpy.ops.ed.redo, bpy.ops.ed.undo):
