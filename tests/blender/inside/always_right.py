@@ -3,6 +3,7 @@
 import bpy
 import numpy as np
 import skinglow_blender as sb
+from skinglow_blender.show.lut_image import images_of
 
 from inside.scenes import add_light, assert_fresh, assert_shows, depsgraph, fresh_table, link, paper_table, patch
 
@@ -185,7 +186,7 @@ def check_more_skins_than_rows(_work):
         copy.location.x = 0.1 * i
         skins.append(copy)
     assert_fresh(*skins)
-    sizes = {tuple(image.size) for image in bpy.data.images}
+    sizes = {tuple(image.size) for image in images_of(skins[0].skinglow.group)}
     assert sizes == {(256, 64)}, sizes
 
 

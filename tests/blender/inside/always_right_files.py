@@ -4,6 +4,7 @@ import bpy
 import numpy as np
 import skinglow_blender as sb
 from skinglow_blender.live import handlers
+from skinglow_blender.show.lut_image import shown_image
 
 from inside.always_right import THIN, skin
 from inside.scenes import add_light, assert_fresh, assert_shows, depsgraph, fresh_table, link, paper_table, patch
@@ -57,9 +58,8 @@ def check_save_and_load(work):
     obj = bpy.data.objects["Patch"]
     # Before anything is computed: what was saved, as a Blender without the add-on has it.
     group = obj.skinglow.group
-    shown = group.nodes["LUT below"].image
+    shown = shown_image(group)
     assert shown.packed_file is not None
-    assert group.nodes["LUT above"].image == shown
     pixels = np.empty(4 * shown.size[0] * shown.size[1], np.float32)
     shown.pixels.foreach_get(pixels)
     saved = pixels.reshape(shown.size[1], -1, 4)[obj.skinglow.row, :256, :3]
@@ -140,7 +140,7 @@ def check_materials_that_bring_another_node_group(work):
             bpy.data.materials.remove(material)
     bpy.ops.wm.save_as_mainfile(filepath=str(work / "merged.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(work / "merged.blend"))
-    assert len([image for image in bpy.data.images if "Skinglow" in image.name]) == 4
+    assert len([image for image in bpy.data.images if "Skinglow" in image.name]) == 8  # of rows and of tiles
     assert_fresh(*(bpy.data.objects[name] for name in ("Own", "Own.001", "Library skin")))
 
 

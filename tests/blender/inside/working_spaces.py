@@ -4,6 +4,7 @@ import bpy
 import numpy as np
 import skinglow_blender as sb
 from mathutils import Color
+from skinglow_blender.show.lut_image import shown_image
 
 from inside.scenes import add_light, black_material, camera_above, depsgraph, patch, read_exr, render_settings, table_1
 
@@ -30,7 +31,7 @@ def work_in(space, work):
 
 
 def shown_pixels(obj):
-    image = obj.skinglow.group.nodes["LUT below"].image
+    image = shown_image(obj.skinglow.group)
     pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)
     image.pixels.foreach_get(pixels)
     return pixels.reshape(image.size[1], -1, 4)[obj.skinglow.row, :256, :3]
