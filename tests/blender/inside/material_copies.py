@@ -124,6 +124,28 @@ def check_appended_and_linked_material(work):
         assert sb.health(other) == []
 
 
+def check_group_of_a_library_made_local(work):
+    """Its images stay the library's: that is told, and Repair gives it its own."""
+    thick = expected(4.0, work)
+    path = saved_library(work)
+    add_light(location=(0.0, 0.0, -1.0), energy=100.0)
+    camera_above()
+    with bpy.data.libraries.load(path, link=True) as (_source, target):
+        target.materials = ["Library Skin"]
+    material = target.materials[0]
+    obj = second_skin(material)
+    np.testing.assert_allclose(picture(work), 0.5 * thick, rtol=1e-5)
+    material.make_local()
+    group = node_of(obj).node_tree.make_local()
+    depsgraph()
+    assert node_of(obj).node_tree == obj.skinglow.group == group and group.library is None
+    assert [fault.what for fault in sb.health(obj)] == ["Its node group was made local without its images"]
+    bpy.context.view_layer.objects.active = obj
+    assert bpy.ops.skinglow.repair() == {"FINISHED"}
+    assert sb.health(obj) == [] and not any(image.library for image in images_of(group))
+    np.testing.assert_allclose(picture(work), 0.5 * thick, rtol=1e-5)
+
+
 def check_asset(work):
     """A material and a node group marked as assets, into a file that has no skin yet."""
     thick = expected(4.0, work)
