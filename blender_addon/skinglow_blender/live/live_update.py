@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Updates the skins' images after a change in the scene; does nothing if nothing changed."""
 
+import threading
 from collections.abc import Callable
 
 import bpy
@@ -26,6 +27,10 @@ from .needed_nodes import fit_nodes, is_fixed, make_room
 from .rebuilt import Rebuilt
 from .shape_tiles import hide_tiles, write_tiles
 
+#: Held during an update. A render has a thread of its own, and its lights would be taken for those of the viewport, or
+#: these for its own.
+TURN = threading.RLock()
+
 
 def update_scene(
     depsgraph: bpy.types.Depsgraph,
@@ -39,6 +44,16 @@ def update_scene(
     left_out  whether another view layer decides what a skin shows
     known     what an earlier reading of this depsgraph found, if that still holds; None: every object is looked at
     """
+    with TURN:
+        return _update_scene(depsgraph, only_live, left_out, known)
+
+
+def _update_scene(
+    depsgraph: bpy.types.Depsgraph,
+    only_live: bool,
+    left_out: Callable[[bpy.types.Object], bool] | None,
+    known: Known | None,
+) -> list[Rebuilt]:
     evaluate_anew(depsgraph)
     SESSION.updates += 1
     SESSION.interrupted = False

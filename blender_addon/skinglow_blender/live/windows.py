@@ -12,7 +12,7 @@ from ..read.known_objects import Known
 from ..session import SESSION
 from ..show.mask import mask_groups, store_masks
 from .guard import faults_shown, has_skins
-from .live_update import update_scene
+from .live_update import TURN, update_scene
 from .rebuilt import Rebuilt
 from .shape_tiles import store_missing_tiles
 
@@ -53,8 +53,20 @@ def _scenes_of_strips(scene: bpy.types.Scene) -> set[bpy.types.Scene]:
 def update_shown(depsgraph: bpy.types.Depsgraph, known: Known | None = None) -> list[Rebuilt]:
     """Updates the live skins of a depsgraph, but for those that the layer of an earlier window shows.
 
+    While a render updates its own, which may wait for light through shapes, the window does not: it does so later.
+
     known  what an earlier reading of it found, if that still holds
     """
+    if not TURN.acquire(blocking=depsgraph.mode == "RENDER" or not SESSION.rendering):
+        update_windows_soon()
+        return []
+    try:
+        return _update_shown(depsgraph, known)
+    finally:
+        TURN.release()
+
+
+def _update_shown(depsgraph: bpy.types.Depsgraph, known: Known | None) -> list[Rebuilt]:
     layers = shown_layers()
     if depsgraph.mode == "RENDER" or depsgraph.view_layer == layers[0]:
         return update_scene(depsgraph, only_live=True, known=known)
