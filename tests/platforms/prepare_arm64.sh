@@ -8,8 +8,8 @@ portable=$project/build/portable
 target=arm64
 built=$project/build/arm64
 toolchain=$project/tests/platforms/linux_arm64.cmake
-# One instruction set, or Embree refuses to be static: as for Apple's processors.
-embree_more=(-DEMBREE_ISA_SSE42=OFF -DEMBREE_ISA_AVX2=OFF -DEMBREE_ISA_AVX512=OFF -DEMBREE_ISA_NEON=ON -DEMBREE_ISA_NEON2X=OFF)
+# One instruction set, or Embree refuses to be static: as for Apple's processors, which Embree knows by their system.
+embree_more=(-DEMBREE_ARM=ON -DEMBREE_ISA_SSE42=OFF -DEMBREE_ISA_AVX2=OFF -DEMBREE_ISA_AVX512=OFF -DEMBREE_ISA_NEON=ON -DEMBREE_ISA_NEON2X=OFF)
 mkdir -p "$portable" "$built"
 source "$steps/portable_tools.sh"
 use_portable_tools "$(find_python 3.11)"
