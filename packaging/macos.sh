@@ -53,7 +53,8 @@ target_settings() {
     *) fail "no Blender for macOS brings Python $1" ;;
     esac
     prepare_linker "$first_python"
-    more_settings=(PYBIND11_USE_CROSSCOMPILING=ON PYTHON_MODULE_EXT_SUFFIX=".cpython-${1/./}-darwin.so" PYTHON_MODULE_DEBUG_POSTFIX=
+    # pybind11 derives the second from the first, but keeps that of the version that was built before.
+    more_settings=(PYBIND11_USE_CROSSCOMPILING=ON PYTHON_MODULE_{EXT_SUFFIX,EXTENSION}=".cpython-${1/./}-darwin.so" PYTHON_MODULE_DEBUG_POSTFIX=
         Python_INCLUDE_DIR="$folder/include/python$1")
 }
 

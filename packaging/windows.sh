@@ -13,7 +13,8 @@ target_settings() {
     3.13) fetch_python_jar "$folder" 3.13.0-1.5.11 windows-x86_64 dd3590a19413e7e3e8b01d8dfd88ee2fc97f2fd0079e50d47fa6a55c41b0afc3 ;;
     *) fail "no Blender for Windows brings Python $1" ;;
     esac
-    more_settings=(PYBIND11_USE_CROSSCOMPILING=ON PYTHON_MODULE_EXT_SUFFIX=".cp$tag-win_amd64.pyd" PYTHON_MODULE_DEBUG_POSTFIX=
+    # pybind11 derives the second from the first, but keeps that of the version that was built before.
+    more_settings=(PYBIND11_USE_CROSSCOMPILING=ON PYTHON_MODULE_{EXT_SUFFIX,EXTENSION}=".cp$tag-win_amd64.pyd" PYTHON_MODULE_DEBUG_POSTFIX=
         Python_INCLUDE_DIR="$folder/include" Python_LIBRARY="$folder/libs/python$tag.lib")
 }
 
