@@ -9,6 +9,9 @@ elseif(APPLE)
     set(CMAKE_CXX_CREATE_SHARED_MODULE
         "$ENV{SKINGLOW_LLD} -arch ${CMAKE_SYSTEM_PROCESSOR} -platform_version macos 11.0 11.0 -bundle -adhoc_codesign -o <TARGET> <OBJECTS> \
 <LINK_LIBRARIES> $ENV{SKINGLOW_MACOS_LIBRARIES} -undefined dynamic_lookup -exported_symbol '_PyInit_*' -dead_strip -x")
+elseif(WIN32)
+    # With LLVM's C++ library pybind11 exports its exceptions, and with them what they call.
+    add_compile_definitions(PYBIND11_EXPORT_EXCEPTION=)
 endif()
 # The licenses of what is compiled in go into the wheel.
 install(DIRECTORY ${SKINGLOW_PARTS}/licenses/ DESTINATION ${SKBUILD_METADATA_DIR}/licenses/third_party COMPONENT python)
