@@ -1,12 +1,8 @@
 """What renderers show: each frame the lookup of that frame, in Cycles with and without persistent data."""
 
-import threading
-
 import bpy
 import numpy as np
 import skinglow_blender as sb
-from skinglow_blender.live.live_update import TURN
-from skinglow_blender.session import SESSION
 from skinglow_blender.show.lut_image import shown_image
 
 from inside.scenes import (
@@ -282,33 +278,3 @@ def check_a_skin_with_keyed_scale_is_rendered_at_its_own_size(work):
     render_animation(work / "scaled")
     widths = [int(np.count_nonzero(read_exr(work / f"scaled/{f:04d}.exr")[16].max(axis=1))) for f in range(1, 5)]
     assert widths == [4, 8, 12, 16], widths
-
-
-def check_a_window_s_update_comes_after_that_of_a_render(_work):
-    """Both at once took each other's lights: frame 2 of an animation was seen with the light of the view's frame 1."""
-    key = add_light("Key")
-    obj = patch(material=black_material())
-    sb.make_skin(obj, thickness=[0.0, 1.0, 2.0, 3.0], mode="paper")
-    before, updates = sb.lut(obj, depsgraph()), SESSION.updates
-    has_turn, may_end = threading.Event(), threading.Event()
-
-    def render():
-        with TURN:
-            has_turn.set()
-            may_end.wait(60.0)
-
-    thread = threading.Thread(target=render)
-    thread.start()
-    SESSION.rendering = True
-    try:
-        assert has_turn.wait(60.0)
-        key.data.color = (1.0, 0.0, 0.0)
-        depsgraph()
-        assert SESSION.updates == updates
-        np.testing.assert_array_equal(sb.lut(obj, depsgraph()), before)
-    finally:
-        may_end.set()
-        thread.join()
-        SESSION.rendering = False
-    sb.update(depsgraph())
-    np.testing.assert_allclose(sb.lut(obj, depsgraph()), paper_table([key]), rtol=1e-6)
