@@ -14,8 +14,8 @@ import skinglow as sg
 vertices = np.array([[x, y, z] for z in (0, -2) for x, y in ((0, 0), (10, 0), (10, 10), (0, 10))], float)
 sides = [t for i in range(4) for j in [(i + 1) % 4] for t in ((i, 4 + i, 4 + j), (i, 4 + j, j))]
 faces = [(0, 1, 2), (0, 2, 3), (4, 6, 5), (4, 7, 6), *sides]
-lamp = sg.Light("POINT", position=(5.0, 5.0, -20.0), power=10.0)
-assert sg.Shape(vertices, faces, sg.TISSUE_PRESETS["light"], unit_mm=1.0).light([lamp]).exitance.max() > 0.0
+light = sg.Light("POINT", position=(5.0, 5.0, -20.0), power=10.0)
+assert sg.Shape(vertices, faces, sg.TISSUE_PRESETS["light"], unit_mm=1.0).light([light]).exitance.max() > 0.0
 assert len(sg.thickness(vertices, faces)) == 8
 sg.Occluders([(vertices, faces)])
 print("traced", [line for line in open("/proc/self/maps") if "MALLOC" in line] != [])

@@ -46,9 +46,11 @@ def make_whole(group: bpy.types.NodeTree) -> None:
         return
     images = {kind: kind.all_of(group) for kind, _width in image_widths()}
     is_made_local = any(image.library is not None for each in images.values() for image in each)
-    if is_made_local or not has_inner_groups(group):
-        clear(group, keep=not is_made_local)
-        build_nodes(group, nodes_of(group))
+    wanted, is_whole = nodes_of(group), has_inner_groups(group)
+    if is_made_local:
+        clear(group, keep=False)
+    if is_made_local or not is_whole:
+        build_nodes(group, wanted)
     for kind, width in image_widths():
         if is_made_local or len(images[kind]) != len(SLOTS):
             kind.renew(group, width, 1)

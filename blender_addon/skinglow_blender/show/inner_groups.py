@@ -63,9 +63,11 @@ def _profiled_group(name: str) -> bpy.types.NodeTree:
 INNER_GROUPS: dict[str, tuple[str, Callable[[str], bpy.types.NodeTree]]] = {
     TEXEL_NODE: (".Skinglow texel", _texel_group),
     TILE_NODE: (".Skinglow tile", _tile_group),
-    LIGHT_NODE: (".Skinglow lamp", _light_group),
-    PROFILED_NODE: (".Skinglow lamp with profile", _profiled_group),
+    LIGHT_NODE: (".Skinglow light", _light_group),
+    PROFILED_NODE: (".Skinglow light with profile", _profiled_group),
 }
+#: The beginning of the lights' names before version 4.
+EARLIER_NAME = ".Skinglow lamp"
 
 
 def inner_groups_of(group: bpy.types.NodeTree) -> dict[str, bpy.types.NodeTree]:
@@ -107,7 +109,7 @@ def delete_group(group: bpy.types.NodeTree) -> None:
 
 def remove_unused(trees: Iterable[bpy.types.NodeTree]) -> None:
     """Deletes those of these trees that are inner groups and that nothing uses."""
-    names = tuple(name for name, _make in INNER_GROUPS.values())
+    names = (*(name for name, _make in INNER_GROUPS.values()), EARLIER_NAME)
     for tree in trees:
         if tree.library is None and tree.users == 0 and tree.name.startswith(names):
             bpy.data.node_groups.remove(tree)

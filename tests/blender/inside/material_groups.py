@@ -1,8 +1,11 @@
 """Skins whose materials have several node groups, as after appending: they come to rest on one."""
 
 import bpy
+import numpy as np
 import skinglow_blender as sb
 from skinglow_blender.show.group_following import follow_materials
+from skinglow_blender.show.inner_groups import LIGHT_NODE, inner_groups_of
+from skinglow_blender.show.lut_image import images_of
 from skinglow_blender.show.skin_group import new_group
 from skinglow_blender.show.skin_material import skin_node
 
@@ -54,3 +57,21 @@ def check_groups_that_are_left_are_gone_at_the_next_load(work):
 
 def images():
     return len([image for image in bpy.data.images if "Skinglow" in image.name])
+
+
+def check_a_deleted_inner_group_comes_back(_work):
+    """An update that needs it says so; Repair makes it, and the images stay."""
+    add_light()
+    obj = patch(material=black_material("A"))
+    sb.make_skin(obj, thickness=[0.0, 1.0, 2.0, 3.0], mode="physical", weights="object")
+    group = obj.skinglow.group
+    shown, before = images_of(group), sb.lut(obj, depsgraph())
+    bpy.data.node_groups.remove(inner_groups_of(group)[LIGHT_NODE])
+    obj.skinglow.weights = "SURFACE"
+    depsgraph()
+    (fault,) = sb.health(obj)
+    assert "lacks a part" in fault.what
+    bpy.context.view_layer.objects.active = obj
+    assert bpy.ops.skinglow.repair() == {"FINISHED"}
+    assert sb.health(obj) == [] and images_of(group) == shown
+    np.testing.assert_allclose(sb.lut(obj, depsgraph()), before, rtol=1e-5)
