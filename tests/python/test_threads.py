@@ -123,6 +123,7 @@ def test_the_same_to_the_last_bit_on_any_number_of_threads(name: str) -> None:
         assert_same(PARALLEL[name](threads), expected)
 
 
+@pytest.mark.skipif(not hasattr(os, "sched_setaffinity"), reason="this system lets no process choose its processors")
 def test_tiles_are_the_same_on_any_number_of_processors() -> None:
     expected = tiles()
     before = os.sched_getaffinity(0)

@@ -115,8 +115,9 @@ def tabulated() -> float:
         middle, half = 0.5 * (nm[1:] + nm[:-1]), 0.5 * (power[1:] + power[:-1])
         width = np.diff(nm)
         moment = (width / 6 * (nm[1:] * power[1:] + nm[:-1] * power[:-1] + 4 * middle * half)).sum()
-        scale = spectrum.sum() / np.trapezoid(power, nm)
-        worst = max(worst, relative(spectrum @ NM / spectrum.sum(), moment / np.trapezoid(power, nm)))
+        total = (width * half).sum()
+        scale = spectrum.sum() / total
+        worst = max(worst, relative(spectrum @ NM / spectrum.sum(), moment / total))
         worst = max(worst, min(abs(scale - 1.0), abs(5.0 * scale - 1.0)))
     return worst
 
