@@ -4,6 +4,9 @@ project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 envs=$project/build/envs
 cd "$project"
 export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_ROOT_USER_ACTION=ignore
+# What several builds compile alike, as the command line and the package do the core, is compiled once.
+export CCACHE_DIR=${CCACHE_DIR:-$project/build/ccache} CCACHE_BASEDIR=$project CCACHE_NOHASHDIR=1
+if [ -z "${CMAKE_CXX_COMPILER_LAUNCHER+set}" ] && command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
 
 say() { printf '[%s] %s\n' "$(date +%H:%M:%S)" "$*"; }
 fail() { printf 'skinglow: %s\n' "$*" >&2; exit 1; }

@@ -19,7 +19,8 @@ say "making the packages again, in $again"
 (
     umask 077
     export LC_ALL=C HOME=$again/home TZ=Asia/Tokyo
-    unset CMAKE_CXX_COMPILER_LAUNCHER CMAKE_C_COMPILER_LAUNCHER
+    # Compiled, not taken from the cache of the first.
+    export CMAKE_CXX_COMPILER_LAUNCHER= CMAKE_C_COMPILER_LAUNCHER= CCACHE_DISABLE=1
     mkdir -p "$HOME"
     bash "$again/scripts/package" "$@"
 )
