@@ -10,7 +10,7 @@
 namespace skinglow::detail {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\v\f";
+constexpr std::string_view blanks_in_line = " \t\r\v\f";
 
 /// Wavefront OBJ, "Appendix B1. Object Files" of Wavefront's Advanced Visualizer manual: vertices, faces,
 /// groups and objects. Coordinates are doubles from the text's digits.
@@ -44,13 +44,13 @@ class ObjReader {
     }
 
     static std::string_view trimmed(std::string_view text) {
-        text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
-        return text.substr(0, text.find_last_not_of(blanks) + 1);
+        text.remove_prefix(std::min(text.find_first_not_of(blanks_in_line), text.size()));
+        return text.substr(0, text.find_last_not_of(blanks_in_line) + 1);
     }
 
     static std::string_view take_word(std::string_view& line) {
-        line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-        const std::string_view word = line.substr(0, line.find_first_of(blanks));
+        line.remove_prefix(std::min(line.find_first_not_of(blanks_in_line), line.size()));
+        const std::string_view word = line.substr(0, line.find_first_of(blanks_in_line));
         line.remove_prefix(word.size());
         return word.starts_with('#') ? std::string_view() : word;
     }

@@ -92,7 +92,7 @@ double exposure_factor(double stops) {
 }
 
 double unnormalized_power_factor(const Light& light) {
-    constexpr double pi = std::numbers::pi;
+    using std::numbers::pi;
     const auto factor = [](const auto& shape) {
         if constexpr (requires { shape.radius; }) {
             return 4 * pi * shape.radius * shape.radius;

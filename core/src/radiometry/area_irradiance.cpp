@@ -14,7 +14,7 @@
 namespace skinglow::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Receiver {
     glm::dvec3 point;

@@ -13,7 +13,7 @@
 namespace skinglow::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A circle of directions at one angle to the spot's axis is cut by the patch and by the horizon; what is
 /// left of it are one or two arcs. The azimuth counts from the center of the patch.

@@ -11,7 +11,7 @@
 namespace skinglow {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 using Coefficients = std::array<glm::dvec3, 9>;
 

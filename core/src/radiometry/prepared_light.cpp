@@ -8,7 +8,7 @@
 namespace skinglow::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A thinner light is as good as one this thin, in units of its width: a line.
 constexpr double thinnest = 1e-8;

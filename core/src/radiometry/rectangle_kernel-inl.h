@@ -16,7 +16,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr hn::ScalableTag<double> d;
 using V = hn::Vec<decltype(d)>;
 using M = hn::Mask<decltype(d)>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 HWY_INLINE V set(double value) {
     return hn::Set(d, value);

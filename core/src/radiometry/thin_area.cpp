@@ -11,7 +11,7 @@
 namespace skinglow::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Integral of f >= 0 between cuts that may stand outside [from, to]. About `peak` the variable is stretched by a
 /// hyperbolic sine, so that a peak of any width is smooth in it, and a sine removes what rises like a square root at

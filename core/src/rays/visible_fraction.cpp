@@ -11,7 +11,7 @@
 namespace skinglow::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 /// Angular radius, radians, below which a light casts a sharp shadow.
 constexpr double sharp = 1e-6;
 

@@ -15,7 +15,7 @@ namespace skinglow {
 namespace detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 /// Rounding of the values and of the bounds themselves, far above what either amounts to.
 constexpr double rounding = 1e-9;
 

@@ -54,7 +54,7 @@ class LightTree {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The smallest cone around two; grown a little, so that rounding leaves nothing out.
 NormalCone cone_around(const NormalCone& a, const NormalCone& b) {

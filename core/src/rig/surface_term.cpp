@@ -10,7 +10,7 @@
 namespace skinglow {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 /// A spot without blend has a rim all the same, so narrow that single precision just resolves it.
 constexpr double narrowest_rim = 1e-6;
 /// Avoids 0 / 0 for lights without a size.

@@ -21,7 +21,7 @@ constexpr float part_cells = 0.3F;
 constexpr float touch_cells = 0.25F;
 /// A winding number this far from 1/2 is that of all cells it stands for.
 constexpr float certain = 0.25F;
-constexpr int max_parts = 400;
+constexpr int max_triangle_parts = 400;
 
 void touch(const VoxelGrid& grid, const glm::vec3& point, std::vector<std::uint8_t>& touched) {
     const glm::vec3 around(touch_cells * grid.cell());
@@ -144,7 +144,8 @@ int parts_of(const Body& body, const BodyTriangle& t, float length) {
     float longest = 0;
     for (int k = 0; k < 3; ++k)
         longest = std::max(longest, glm::length(body.corner(t, k) - body.corner(t, (k + 1) % 3)));
-    return static_cast<int>(std::clamp(std::ceil(longest / length), 1.0F, static_cast<float>(max_parts)));
+    return static_cast<int>(
+        std::clamp(std::ceil(longest / length), 1.0F, static_cast<float>(max_triangle_parts)));
 }
 
 std::vector<std::uint8_t> find_flesh(const FleshSurface& surface, const VoxelGrid& grid,

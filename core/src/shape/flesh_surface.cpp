@@ -14,7 +14,7 @@ constexpr float rounding = 1e-6F;
 /// A mixed triangle's walls are passed this often before the ray counts as ended.
 constexpr int max_walls = 256;
 /// Parts along an edge of a large triangle that are asked.
-constexpr int max_parts = 12;
+constexpr int max_edge_parts = 12;
 constexpr float third = 1.0F / 3;
 
 float largest_coordinate(const Body& body) {
@@ -79,7 +79,8 @@ int FleshSurface::parts_of(std::uint32_t triangle) const {
     float edge = 0;
     for (int k = 0; k < 3; ++k)
         edge = std::max(edge, glm::length(body_->corner(t, k) - body_->corner(t, (k + 1) % 3)));
-    return static_cast<int>(std::clamp(std::ceil(edge / (4 * cell_)), 1.0F, static_cast<float>(max_parts)));
+    return static_cast<int>(
+        std::clamp(std::ceil(edge / (4 * cell_)), 1.0F, static_cast<float>(max_edge_parts)));
 }
 
 FleshSurface::Kind FleshSurface::find_large_kind(std::uint32_t triangle) const {

@@ -26,7 +26,7 @@ constexpr float least_weight = 0.05F;
 /// A step counts where at least this part of the cells about it is known.
 constexpr float least_part = 1e-3F;
 constexpr float negligible_weight = 1e-6F;
-constexpr std::size_t sites_per_block = 64;
+constexpr std::size_t sites_per_flight_block = 64;
 
 float largest(const Lanes& weight) {
     return std::max({weight[0], weight[1], weight[2], weight[3]});
@@ -261,21 +261,21 @@ class FlightTracer {
 LastFlight last_flight(const FleshSurface& surface, const VoxelGrid& grid, const Ghosts& ghosts,
                        const LaneMedium& medium, const SurfaceSites& all,
                        std::span<const std::uint32_t> sites, const LastFlightOptions& options) {
-    const std::size_t blocks = (sites.size() + sites_per_block - 1) / sites_per_block;
+    const std::size_t blocks = (sites.size() + sites_per_flight_block - 1) / sites_per_flight_block;
     std::vector<LastFlight> rows(blocks);
     // A few long runs of blocks, so that a tracer's tables are made seldom.
     const std::size_t per_run = std::max<std::size_t>(1, blocks / 16);
     const auto work = [&](std::size_t begin, std::size_t end) {
         FlightTracer tracer(surface, grid, ghosts, medium, options);
         for (std::size_t b = begin; b < end; ++b) {
-            const std::size_t last = std::min(sites.size(), (b + 1) * sites_per_block);
-            for (std::size_t i = b * sites_per_block; i < last; ++i) {
+            const std::size_t last = std::min(sites.size(), (b + 1) * sites_per_flight_block);
+            for (std::size_t i = b * sites_per_flight_block; i < last; ++i) {
                 stop_if_asked(8 * i);
                 tracer.trace(all, sites[i], rows[b]);
             }
             rows[b].of_fluence.shrink();
             rows[b].of_light.shrink();
-            finish_work(static_cast<double>(last - b * sites_per_block));
+            finish_work(static_cast<double>(last - b * sites_per_flight_block));
         }
     };
     for_each_block(blocks, options.threads, work, {}, per_run);

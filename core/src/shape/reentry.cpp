@@ -13,7 +13,7 @@ namespace skinglow::detail {
 namespace {
 
 constexpr int rays = 64;
-constexpr std::size_t sites_per_block = 128;
+constexpr std::size_t sites_per_reentry_block = 128;
 constexpr std::uint32_t not_wanted = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
@@ -34,13 +34,13 @@ Reentry::Reentry(const FleshSurface& surface, const SurfaceSites& sites, std::sp
         row_of_[v] = row_of_site[s];
     }
     const auto directions = cosine_directions(rays);
-    const std::size_t blocks = (chosen.size() + sites_per_block - 1) / sites_per_block;
+    const std::size_t blocks = (chosen.size() + sites_per_reentry_block - 1) / sites_per_reentry_block;
     std::vector<SparseRows<float>> parts(blocks);
     const auto work = [&](std::size_t begin, std::size_t end) {
         RowSums<float> sums(wanted.size());
         for (std::size_t b = begin; b < end; ++b) {
-            const std::size_t last = std::min(chosen.size(), (b + 1) * sites_per_block);
-            for (std::size_t i = b * sites_per_block; i < last; ++i) {
+            const std::size_t last = std::min(chosen.size(), (b + 1) * sites_per_reentry_block);
+            for (std::size_t i = b * sites_per_reentry_block; i < last; ++i) {
                 stop_if_asked(i);
                 const Site& site = sites.sites()[chosen[i]];
                 if (site.normal != glm::vec3(0.0F)) {

@@ -15,7 +15,7 @@ constexpr float largest_error = 0.1F;
 constexpr float largest_sent_back = 1 + largest_error;
 /// Flesh that light comes through at lit points.
 constexpr double thickest_mm = 2;
-constexpr std::size_t sites_per_block = 512;
+constexpr std::size_t sites_per_result_block = 512;
 
 Lanes each_channel(const glm::dvec3& rgb) {
     return {{static_cast<float>(rgb.r), static_cast<float>(rgb.g), static_cast<float>(rgb.b), 0}};
@@ -220,7 +220,7 @@ ShapeData::Colors ShapeData::colors(std::span<const SiteLight> solved) const {
             result.exitance[s] = glm::max(result.exitance[s], glm::dvec3(0.0));
         }
     };
-    for_each_block(sites, options.threads, work, {}, sites_per_block);
+    for_each_block(sites, options.threads, work, {}, sites_per_result_block);
     return result;
 }
 
@@ -234,7 +234,7 @@ ShapeData::Matrices ShapeData::matrices(const SiteLight& solved) const {
             result.reflected[s] = glm::mat3(pair.reflected);
         }
     };
-    for_each_block(result.exitance.size(), options.threads, work, {}, sites_per_block);
+    for_each_block(result.exitance.size(), options.threads, work, {}, sites_per_result_block);
     return result;
 }
 
