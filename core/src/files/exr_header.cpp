@@ -62,10 +62,6 @@ const std::map<std::string, std::uint32_t> fixed_sizes = {{"box2i", 16},
                                                           {"v3f", 12},
                                                           {"v3d", 24}};
 
-std::uint64_t word64_at(std::string_view data, std::size_t at) {
-    return raw_number<std::uint32_t, false>(data.data() + at);
-}
-
 /// Where channels end by their own names: each has a name, the byte 0 and 16 bytes; an empty name comes last.
 bool are_channels(std::string_view data) {
     constexpr std::size_t of_channel = 16;
@@ -80,7 +76,7 @@ bool are_channels(std::string_view data) {
 /// Whether texts, each after its length, fill the data.
 bool are_texts(std::string_view data) {
     while (data.size() >= word) {
-        const std::uint64_t length = word64_at(data, 0);
+        const std::uint64_t length = word_at(data, 0);
         if (length > data.size() - word) return false;
         data.remove_prefix(word + length);
     }
@@ -90,7 +86,7 @@ bool are_texts(std::string_view data) {
 /// A small picture: width, height and four bytes a pixel.
 bool is_preview(std::string_view data) {
     if (data.size() < 2 * word) return false;
-    const std::uint64_t pixels = word64_at(data, 0) * word64_at(data, word);  // below 2^64
+    const std::uint64_t pixels = std::uint64_t{word_at(data, 0)} * word_at(data, word);  // below 2^64
     return pixels <= data.size() && data.size() == 2 * word + 4 * pixels;
 }
 

@@ -14,10 +14,6 @@ constexpr std::uint32_t json_chunk = 0x4E4F534A;
 constexpr std::uint32_t binary_chunk = 0x004E4942;
 constexpr std::ptrdiff_t max_json_values = 4'000'000;
 
-std::uint32_t word32_at(std::string_view bytes, std::size_t at) {
-    return raw_number<std::uint32_t, false>(bytes.data() + at);
-}
-
 }  // namespace
 
 bool is_readable_extension(std::string_view name) {
@@ -57,17 +53,17 @@ void GltfDocument::refuse(const std::string& what, const std::string& where) con
 
 std::string_view GltfDocument::read_container() {
     const std::string_view content = content_;
-    if (content.size() < 12 || word32_at(content, 0) != glb_magic) return content;
-    if (word32_at(content, 4) != 2) {
-        refuse_file(path_, "is of glTF version " + std::to_string(word32_at(content, 4)),
+    if (content.size() < 12 || word_at(content, 0) != glb_magic) return content;
+    if (word_at(content, 4) != 2) {
+        refuse_file(path_, "is of glTF version " + std::to_string(word_at(content, 4)),
                     "export it as glTF 2.0");
     }
-    const std::size_t length = word32_at(content, 8);
+    const std::size_t length = word_at(content, 8);
     if (length > content.size()) refuse("ends too early", "header");
     std::string_view text;
     for (std::size_t at = 12; at + 8 <= length;) {
-        const std::size_t size = word32_at(content, at);
-        const std::uint32_t kind = word32_at(content, at + 4);
+        const std::size_t size = word_at(content, at);
+        const std::uint32_t kind = word_at(content, at + 4);
         at += 8;
         if (size > length - at) refuse("ends too early", "chunk");
         if (kind == json_chunk && text.empty()) text = content.substr(at, size);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 
 #include "numerics/detail.h"
 
@@ -23,6 +24,11 @@ Number raw_number(const char* bytes) {
     if constexpr (big_endian != (std::endian::native == std::endian::big))
         std::reverse(raw.begin(), raw.end());
     return std::bit_cast<Number>(raw);
+}
+
+/// The 32 bits at an offset, least significant byte first.
+inline std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
+    return raw_number<std::uint32_t, false>(bytes.data() + offset);
 }
 
 /// A number from its bytes in a file, whatever the machine's own byte order.
