@@ -9,12 +9,12 @@
 #include <skinglow/thickness.h>
 #include <skinglow/tissue.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <map>
 #include <numeric>
-#include <ranges>
 #include <string>
 #include <thread>
 #include <vector>
@@ -221,7 +221,9 @@ TEST(ParallelCalls, FromTwoThreadsAtOnceEachHaveTheirOwnAnswer) {
             for (const auto& [name, call] : calls) found[0][name] = call(2);
         });
         const std::jthread backward([&] {
-            for (const auto& [name, call] : std::views::reverse(calls)) found[1][name] = call(2);
+            // Not std::views::reverse, which clang before 16 cannot read in this standard library.
+            std::for_each(calls.rbegin(), calls.rend(),
+                          [&](const auto& each) { found[1][each.first] = each.second(2); });
         });
     }
     EXPECT_EQ(found[0], found[1]);
