@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <numbers>
 #include <random>
@@ -23,20 +25,27 @@ class RandomScene {
     double decades(double min, double max) {
         return std::pow(10.0, between(std::log10(min), std::log10(max)));
     }
-    bool one_in(int n) { return std::uniform_int_distribution<int>(1, n)(engine_) == 1; }
+    bool one_in(int n) { return below(n) == 0; }
+    /// A whole number from 0 to n - 1. The distributions of C++ draw others in each library: a system with another one would
+    /// be tested with scenes of its own.
+    int below(int n) {
+        return static_cast<int>(std::uint64_t{engine_()} * static_cast<std::uint64_t>(n) >> 32U);
+    }
     glm::dvec3 in_box(const glm::dvec3& min, const glm::dvec3& max) {
         return {between(min.x, max.x), between(min.y, max.y), between(min.z, max.z)};
     }
     glm::dvec3 unit_vector() {
-        std::normal_distribution<double> normal;
         glm::dvec3 v(0.0);
-        while (glm::length(v) < 1e-3) v = {normal(engine_), normal(engine_), normal(engine_)};
+        while (glm::length(v) < 1e-3) {
+            const glm::dvec2 pair = normal_pair();
+            v = {pair, normal_pair().x};
+        }
         return glm::normalize(v);
     }
 
     FlatLight light() {
         FlatLight light;
-        light.kind = static_cast<LightKind>(std::uniform_int_distribution<int>(0, 3)(engine_));
+        light.kind = static_cast<LightKind>(below(4));
         light.color = in_box(glm::dvec3(0.0), glm::dvec3(1.0));
         light.position = unit_vector() * decades(0.05, 100.0);
         light.direction = one_in(2) ? unit_vector() : unit_vector() * 0.4 - light.position;
@@ -65,6 +74,18 @@ class RandomScene {
     std::mt19937& engine() { return engine_; }
 
   private:
+    /// Two numbers of the normal distribution (Marsaglia's polar method).
+    glm::dvec2 normal_pair() {
+        glm::dvec2 v(0.0);
+        double square = 0;
+        while (square == 0 || square > 1) {
+            const double x = between(-1.0, 1.0);
+            v = {between(-1.0, 1.0), x};
+            square = glm::dot(v, v);
+        }
+        return v * std::sqrt(-2 * std::log(square) / square);
+    }
+
     std::mt19937 engine_;
 };
 
