@@ -37,7 +37,7 @@ def parsed(arguments: list[str]) -> argparse.Namespace:
     parser.add_argument("--blender", metavar="PROGRAM", help="a Blender program or a Python with bpy, for Cycles")
     parser.add_argument("--eevee", metavar="PROGRAM", default="blender", help="a full Blender (default: %(default)s)")
     parser.add_argument("--program", type=Path, help="the Monte Carlo (default: it is built)")
-    parser.add_argument("--photons", type=int, default=400_000, help="per channel and rig (default %(default)s)")
+    parser.add_argument("--photons", type=int, default=1_600_000, help="per channel and rig (default %(default)s)")
     parser.add_argument("--size", type=int, default=96, metavar="PIXELS", help="(default %(default)s)")
     parser.add_argument("--samples", type=int, default=1024, help="of the walk, in two halves (default %(default)s)")
     parser.add_argument(
