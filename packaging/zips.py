@@ -119,7 +119,7 @@ def pack_extension(
         manifest = manifest.replace(f"@{key.upper()}@", json.dumps([own, *told[key]], indent=4))
     (folder / "blender_manifest.toml").write_text(manifest.replace("@WHEELS@", f"[\n{names},\n]"))
     package = packages / f"{ADDON}-{version}-{name}.zip"
-    set_dates(folder)
+    set_dates_and_modes(folder)
     site = Path(sysconfig.get_path("purelib"))
     builder = next(site.glob("bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py"))
     paths = ["--source-dir", str(folder), "--output-filepath", str(package)]
@@ -129,10 +129,11 @@ def pack_extension(
         sys.exit(f"Blender's builder refused the extension:\n{done.stdout}")
 
 
-def set_dates(folder: Path) -> None:
-    """The one date of all that is packed, so that the same files make the same zip."""
+def set_dates_and_modes(folder: Path) -> None:
+    """The one date and mode of all that is packed, whoever packs it, so that the same files make the same zip."""
     when = int(os.environ["SOURCE_DATE_EPOCH"])
     for path in folder.rglob("*"):
+        path.chmod(0o755 if path.is_dir() else 0o644)
         os.utime(path, (when, when))
 
 
@@ -141,7 +142,7 @@ def pack_legacy(folder: Path, version: str, wheels: dict[str, Path], packages: P
     for wheel in wheels.values():
         with zipfile.ZipFile(wheel) as archive:
             archive.extractall(folder / ADDON / "lib")
-    set_dates(folder)
+    set_dates_and_modes(folder)
     target = packages / f"{ADDON}-{version}-legacy-{'-'.join(wheels)}-linux-x64.zip"
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive:
         for path in sorted(folder.rglob("*")):
