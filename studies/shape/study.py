@@ -28,7 +28,7 @@ def parsed(arguments: list[str]) -> argparse.Namespace:
     parser.add_argument("--scan", metavar="FILE", default=str(SCAN), help="the scanned head (default: %(default)s)")
     parser.add_argument("--blender", metavar="PROGRAM", help="a Blender program or a Python with bpy")
     parser.add_argument("--program", type=Path, help="the Monte Carlo (default: it is built)")
-    parser.add_argument("--photons", type=int, default=800_000, help="per channel and case (default %(default)s)")
+    parser.add_argument("--photons", type=int, default=8_000_000, help="per channel and case (default %(default)s)")
     parser.add_argument("--size", type=int, default=160, help="of a picture, pixels (default %(default)s)")
     parser.add_argument("--samples", type=int, default=128, help="of a pixel of Cycles' walk (default %(default)s)")
     parser.add_argument("--out", type=Path, default=Path("out/shape"), help="keeps references (default %(default)s)")

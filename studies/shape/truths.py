@@ -22,9 +22,8 @@ CASES = (
     Case("makehuman", "behind", SKIN1),
     Case("makehuman", "beside", SKIN1),
 )
-#: Those whose pictures are shown get more photons: their noise is seen.
+#: Those whose pictures are shown.
 SHOWN = ("scan-behind-skin1", "makehuman-behind-skin1")
-PHOTONS_IF_SHOWN = 4
 
 
 @dataclass
@@ -53,7 +52,6 @@ class Lit:
 def truth(case: Case, head: HeadMesh, program: Path, folder: Path, photons: int, progress: Progress) -> Lit:
     irradiance = head.irradiance(case.light)
     path = folder / f"truth-{case.name}.npz"
-    photons *= PHOTONS_IF_SHOWN if case.name in SHOWN else 1
     if path.is_file():
         with np.load(path) as file:
             if int(file["photons"]) == photons:
