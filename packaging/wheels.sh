@@ -71,6 +71,7 @@ build_wheel() {
             "$python" -m zipfile -e "$work"/*.whl "$work/unpacked" && finish_wheel "$python" "$work"
     } >"$work/log.txt" 2>&1 ||
         { tail -n 30 "$work/log.txt" >&2; fail "the wheel for $target and Python $1 did not build; the whole log: $work/log.txt"; }
+    "$python" "$steps/wheel_modes.py" "$packages"/skinglow-*-"$tag-$tag"-$wheel_platform.whl
     printf '%s' "$want" >"$work/digest"
 }
 
@@ -97,4 +98,5 @@ build_script_access() {
     "$1" -m pip wheel --quiet --no-build-isolation --no-deps --wheel-dir "$portable/script_access" blender_addon/script_access \
         >"$portable/script_access.log" 2>&1 ||
         { tail -n 20 "$portable/script_access.log" >&2; fail "the wheel for scripts did not build"; }
+    "$1" "$steps/wheel_modes.py" "$portable/script_access"/*.whl
 }

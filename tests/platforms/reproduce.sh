@@ -15,9 +15,6 @@ ln -s "$envs" "$again/build/envs"
 [ ! -e build/pythons ] || ln -s "$project/build/pythons" "$again/build/pythons"
 # What was fetched, and nothing that was made. Those tools are checked by their digests when they are installed.
 find build/portable -maxdepth 1 -type f \( -name '*.tar.*' -o -name '*.jar' -o -name '*.whl' \) -exec cp -t "$again/build/portable" {} +
-# zig's C++ library as zig compiled it when it was first used: its files are in an order of their own each time, and so is what is
-# linked with it.
-cp -a build/portable/zig_cache "$again/build/portable/"
 say "making the packages again, in $again"
 (
     umask 077
