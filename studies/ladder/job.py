@@ -33,7 +33,7 @@ LOOKUPS: dict[str, dict[str, Any]] = {
     "pixel": {"mode": "physical", "weights": "surface"},
     **{f"shape {c:g}": {"mode": "physical", "weights": "shape", "cell_mm": c, "reentries": 0} for c in (1.2, 0.8, 0.5)},
 }
-#: Of pictures without noise: fewer leave edges between folds of the ear to chance, which was 15 % of error on the scan.
+#: Of pictures without noise: fewer leave edges between folds of the ear to chance, which was 14 % of error on the scan.
 SAMPLES, SEEDS = 64, (1, 2)
 #: A render's first call loads what later ones have.
 REPEATS = 2

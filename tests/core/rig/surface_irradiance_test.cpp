@@ -135,8 +135,7 @@ TEST(SurfaceIrradiance, ASunAcrossTheHorizonIsExactToRounding) {
             const auto all = surface_irradiance({light}, surface.points, surface.normals);
             for (std::size_t i = 0; i < all.size(); ++i) {
                 const double one = irradiance_at({light}, surface.points[i], surface.normals[i]).g;
-                // A cosine that is rounded otherwise, and the formula: some units in the last place, by the system's
-                // own functions.
+                // A cosine that is rounded otherwise, and the formula: a few ulp, by the system's own functions.
                 EXPECT_NEAR(all[i].g, one, light.power * (2e-15 + 2e-15 * radius))
                     << light.sun_angle << " " << i;
             }
