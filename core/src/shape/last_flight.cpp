@@ -16,8 +16,6 @@
 namespace skinglow::detail {
 namespace {
 
-/// Rays end where all nodes have fallen to exp(-max_optical_depth).
-constexpr float max_optical_depth = 7;
 /// Steps along a ray, in cells.
 constexpr float step_cells = 0.6F;
 constexpr int max_bounces = 6;
@@ -55,7 +53,7 @@ class FlightTracer {
           escaping_(static_cast<float>(1 / (index_n_ * index_n_))),
           inside_reflectance_(static_cast<float>(medium[0].inside_reflectance)),
           transmittance_(static_cast<float>(medium[0].transmittance)),
-          max_length_(max_optical_depth / static_cast<float>(medium.min_extinction())),
+          max_length_(static_cast<float>(max_flight_depth / medium.min_extinction())),
           step_(step_cells * grid.cell()),
           max_extinction_(std::max({extinction_[0], extinction_[1], extinction_[2], extinction_[3]})),
           center_(step_center(step_)) {

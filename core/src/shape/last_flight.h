@@ -18,6 +18,9 @@ struct LastFlight {
     std::size_t bytes() const { return of_fluence.bytes() + of_light.bytes(); }
 };
 
+/// Rays end where all nodes have fallen to exp(-max_flight_depth).
+constexpr double max_flight_depth = 7;
+
 struct LastFlightOptions {
     int rays = 128;             ///< a site
     float small_entry = 5e-4F;  ///< of a row whose weights sum to about 1: below, chance decides

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -37,21 +38,27 @@ class Lazy {
     mutable std::unique_ptr<const Value> value_;
 };
 
+/// How often light may enter skin again.
+constexpr int max_reentries = 8;
+
 /// Rows for the vertices about a part whose sites are points: what light that enters skin again comes from.
 struct VertexRows {
     std::vector<std::uint32_t> sites;  ///< of the vertices
     LastFlight flight;
+    std::vector<std::uint32_t> lit_by;  ///< vertices whose irradiance the rows ask for, ascending
 };
 
 /// A thin part, made ready when light first falls on it.
 struct LazyPart {
     ThinPart part;
     Lazy<PartSolver> solver;
-    Lazy<VertexRows> vertices;
+    std::array<Lazy<VertexRows>, max_reentries> vertices;  ///< by step, as ShapeSolver::reentry
 
     std::size_t bytes() const {
         std::size_t sum = solver.ready() != nullptr ? solver.ready()->bytes() : 0;
-        if (const VertexRows* rows = vertices.ready()) sum += rows->flight.bytes();
+        for (const Lazy<VertexRows>& step : vertices) {
+            if (const VertexRows* rows = step.ready()) sum += rows->flight.bytes();
+        }
         return sum;
     }
 };

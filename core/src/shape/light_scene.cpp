@@ -73,7 +73,7 @@ const VertexLight& LightTracer::vertex_light() {
         const ShapeLightOptions& options = scene_->options;
         vertex_light_.emplace(
             shape.solver->surface(), shape.vertices, shape.solver->vertex_sites(), shape.options.unit_mm,
-            shape.solver->wanted_vertices(options.reentries > 0),
+            shape.solver->wanted_vertices(options.reentries),
             ShadowOptions{scene_->occluders ? &*scene_->occluders : nullptr, options.excluded,
                           scene_->to_occluders, options.shadow_samples, shape.options.threads});
     }

@@ -37,13 +37,13 @@ struct LightScene {
 template <typename Irradiance>
 struct Shadowed {
     int shadow_samples;
-    bool reentries;  ///< also at the vertices that light which enters skin again comes from
+    int reentries;  ///< at the vertices that light comes from which enters skin as often again
     Lazy<Irradiance> irradiance;
 
     explicit Shadowed(const ShapeLightOptions& options)
-        : shadow_samples(options.shadow_samples), reentries(options.reentries > 0) {}
+        : shadow_samples(options.shadow_samples), reentries(options.reentries) {}
     bool serves(const ShapeLightOptions& wanted) const {
-        return shadow_samples >= wanted.shadow_samples && (reentries || wanted.reentries == 0);
+        return shadow_samples >= wanted.shadow_samples && reentries >= wanted.reentries;
     }
 };
 

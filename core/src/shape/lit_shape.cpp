@@ -11,7 +11,6 @@
 namespace skinglow {
 namespace {
 
-constexpr int max_reentries = 8;
 constexpr int max_samples = 4096;
 constexpr double min_tolerance = 1e-6;
 constexpr double max_tolerance = 0.5;
@@ -33,7 +32,7 @@ void prepare_recolor(const LitShapeData& lit, std::span<const glm::dvec3> colors
 
 LitShape Shape::light(const PreparedRig& rig, const ShapeLightOptions& options,
                       const ShapeProgress& progress) const {
-    if (options.reentries < 0 || options.reentries > max_reentries)
+    if (options.reentries < 0 || options.reentries > detail::max_reentries)
         refuse_argument("reentries", std::to_string(options.reentries), "0 to 8");
     if (options.shadow_samples < 1 || options.shadow_samples > max_samples)
         refuse_argument("shadow_samples", std::to_string(options.shadow_samples), "1 to 4096");

@@ -12,6 +12,15 @@ namespace {
 
 constexpr std::size_t points_per_block = std::size_t{1} << 13U;
 
+/// Of what two tissues of the same flesh let through; none where that is the same.
+std::optional<Lanes> entering_ratio(const ShapeData& of, const ShapeData& solved) {
+    const Lanes now = of.on_the_way();
+    const Lanes then = solved.on_the_way();
+    if (std::equal(std::begin(now.v), std::end(now.v), std::begin(then.v))) return std::nullopt;
+    // Where nothing came in there is nothing to scale.
+    return each_lane([&](std::size_t k) { return then[k] > 0 ? now[k] / then[k] : 1.0F; });
+}
+
 }  // namespace
 
 void keep_transmitted(ShapeData::Colors& found) {
@@ -21,7 +30,7 @@ void keep_transmitted(ShapeData::Colors& found) {
 
 LitShapeData::LitShapeData(std::shared_ptr<const SolvedLight> light, std::shared_ptr<const ShapeData> colors,
                            const LitShapeData* previous)
-    : solved(std::move(light)), shape(std::move(colors)) {
+    : solved(std::move(light)), shape(std::move(colors)), entering_(entering_ratio(*shape, *solved->shape)) {
     std::unordered_map<const WhiteLight*, std::shared_ptr<const LightColors>> known;
     if (previous != nullptr && previous->shape == shape) {
         for (const auto& one : previous->lights_) known.emplace(one->light.get(), one);
@@ -39,11 +48,29 @@ LitShapeData::LitShapeData(std::shared_ptr<const SolvedLight> light, std::shared
         for (const RigLight& one : solved->rig.data().prepared) own.push_back(one.color);
         found = sum(own);
     } else {
-        found = shape->colors(shape->sum(solved->parts()));
+        found = shape->colors(sum_of_parts());
     }
     keep_transmitted(found);
     exitance = shape->at_points(found.exitance);
     transmitted = shape->at_points(found.reflected);
+}
+
+template <typename Use>
+auto LitShapeData::in_tissue(const SiteLight& light, const Use& use) const {
+    return entering_ ? use(behind_another(light, *entering_)) : use(light);
+}
+
+std::vector<SiteLight> LitShapeData::sum_of_parts() const {
+    std::vector<ColoredLight> parts = solved->parts();
+    std::vector<SiteLight> own;
+    if (entering_) {
+        own.reserve(parts.size());
+        for (ColoredLight& part : parts) {
+            own.push_back(behind_another(*part.light, *entering_));
+            part.light = &own.back();
+        }
+    }
+    return shape->sum(parts);
 }
 
 void LitShapeData::solve_each() const {
@@ -61,7 +88,9 @@ bool LitShapeData::is_each_solved() const {
 const ShapeData::Matrices* LitShapeData::matrices(std::size_t light) const {
     const WhiteLight::Solved* white = solved->lights[light]->solved.ready();
     if (white == nullptr || white->nodes.exitance.empty()) return nullptr;
-    return &lights_[light]->matrices.get([&] { return shape->matrices(white->nodes); });
+    return &lights_[light]->matrices.get([&] {
+        return in_tissue(white->nodes, [&](const SiteLight& nodes) { return shape->matrices(nodes); });
+    });
 }
 
 ShapeData::Colors LitShapeData::sum(std::span<const glm::dvec3> colors) const {
@@ -90,7 +119,13 @@ ShapeData::Colors LitShapeData::sum(std::span<const glm::dvec3> colors) const {
 
 const ShapeData::Colors* LitShapeData::world_colors() const {
     if (!world_ || world_->world->solved.ready() == nullptr) return nullptr;
-    return &world_->colors.get([&] { return shape->colors(*world_->world->solved.ready()); });
+    return &world_->colors.get([&] {
+        std::vector<SiteLight> channels = *world_->world->solved.ready();
+        if (entering_) {
+            for (SiteLight& channel : channels) channel = behind_another(channel, *entering_);
+        }
+        return shape->colors(channels);
+    });
 }
 
 const std::vector<glm::mat3>& LitShapeData::through(std::size_t light,
@@ -143,7 +178,7 @@ std::vector<glm::dvec3> LitShapeData::transmitted_of(std::span<const glm::dvec3>
 }
 
 std::vector<glm::dvec3> LitShapeData::error() const {
-    const std::vector<SiteLight> all = shape->sum(solved->parts());
+    const std::vector<SiteLight> all = sum_of_parts();
     std::vector<ColoredLight> lights;
     add_colored(all, lights);
     return estimated_error(*shape, lights, solved->irradiance);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "shape/shape_error.h"
@@ -50,10 +51,16 @@ struct LitShapeData {
     MeanError mean_error() const;
 
   private:
+    /// Calls `use` with light as the tissue has it that makes the colors.
+    template <typename Use>
+    auto in_tissue(const SiteLight& light, const Use& use) const;
+    std::vector<SiteLight> sum_of_parts() const;
     const std::vector<glm::mat3>& through(std::size_t light, const ShapeData::Matrices& of_light) const;
     /// Null: black, or not solved.
     const ShapeData::Colors* world_colors() const;
 
+    /// What the tissue lets through of light that enters again, over what it was solved with; none: as much.
+    std::optional<Lanes> entering_;
     std::vector<std::shared_ptr<const LightColors>> lights_;
     std::shared_ptr<const WorldColors> world_;  ///< null: black
 };

@@ -46,6 +46,12 @@ PartSolver::PartSolver(const FleshSurface& surface, const SurfaceSites& all,
       fluence2_(medium.lanes([&](const Sp3Medium& m) { return seen_fluence(m, options.cell)[1]; })),
       lost_fraction_(samples.lost_area / std::max(samples.lost_area + samples.area, 1e-30)) {
     if (!options.keep_grid) ghosts_.index = {};
+    for (const auto& columns :
+         {right_.used_columns(), ghosts_.of_light.used_columns(), flight_.of_light.used_columns()})
+        lit_by_.insert(lit_by_.end(), columns.begin(), columns.end());
+    std::sort(lit_by_.begin(), lit_by_.end());
+    lit_by_.erase(std::unique(lit_by_.begin(), lit_by_.end()), lit_by_.end());
+    lit_by_.shrink_to_fit();
 }
 
 PartField PartSolver::solve(std::span<const Lanes> light, double tolerance) const {
@@ -102,15 +108,6 @@ void PartSolver::exitance(const LastFlight& flight, const PartField& field, std:
         }
     };
     for_each_block(out.size(), threads, work, {}, 1024);
-}
-
-void PartSolver::mark_vertices(std::span<std::uint8_t> marks) const {
-    const auto mark = [&](const std::vector<std::uint32_t>& vertices) {
-        for (const std::uint32_t v : vertices) marks[v] = 1;
-    };
-    mark(right_.all_columns());
-    mark(ghosts_.of_light.all_columns());
-    mark(flight_.of_light.all_columns());
 }
 
 std::size_t PartSolver::bytes() const {

@@ -52,8 +52,8 @@ class PartSolver {
     /// Whether a site lies on a cell.
     bool covers(const Site& site) const;
 
-    /// Marks the vertices whose irradiance is asked for.
-    void mark_vertices(std::span<std::uint8_t> marks) const;
+    /// Vertices whose irradiance is asked for.
+    const std::vector<std::uint32_t>& lit_by() const { return lit_by_; }
 
     std::uint32_t cells() const { return grid_.size(); }
     double cell() const { return static_cast<double>(grid_.cell()); }
@@ -73,6 +73,7 @@ class PartSolver {
     SparseRows<LanePair> right_;
     Ghosts ghosts_;
     LastFlight flight_;
+    std::vector<std::uint32_t> lit_by_;
     Lanes fluence1_, fluence2_;
     double lost_fraction_;
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <limits>
 
 #include "geometry/vector.h"
 #include "numerics/job.h"
@@ -14,7 +13,6 @@ namespace {
 
 constexpr int rays = 64;
 constexpr std::size_t sites_per_reentry_block = 128;
-constexpr std::uint32_t not_wanted = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
 
@@ -73,7 +71,8 @@ Reentry::Reentry(const FleshSurface& surface, const SurfaceSites& sites, std::sp
     for (const std::uint32_t v : rows_.all_columns()) seen_[v] = 1;
 }
 
-std::vector<Lanes> Reentry::irradiance(std::span<const Lanes> exitance, int threads) const {
+void Reentry::add_irradiance(std::span<const Lanes> exitance, std::span<Lanes> irradiance,
+                             int threads) const {
     std::vector<Lanes> of_row(rows_.rows());
     const auto work = [&](std::size_t begin, std::size_t end) {
         for (std::size_t r = begin; r < end; ++r) {
@@ -83,11 +82,9 @@ std::vector<Lanes> Reentry::irradiance(std::span<const Lanes> exitance, int thre
         }
     };
     for_each_block(of_row.size(), threads, work, {}, 2048);
-    std::vector<Lanes> result(row_of_.size());
-    for (std::size_t v = 0; v < result.size(); ++v) {
-        if (row_of_[v] != not_wanted) result[v] = of_row[row_of_[v]];
+    for (std::size_t v = 0; v < row_of_.size(); ++v) {
+        if (row_of_[v] != not_wanted) irradiance[v] += of_row[row_of_[v]];
     }
-    return result;
 }
 
 }  // namespace skinglow::detail

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -20,8 +22,12 @@ class Reentry {
     Reentry(const FleshSurface& surface, const SurfaceSites& sites, std::span<const std::uint8_t> wanted,
             int threads);
 
+    /// Adds to the irradiance at the wanted vertices.
     /// @param exitance  one per vertex
-    std::vector<Lanes> irradiance(std::span<const Lanes> exitance, int threads) const;
+    void add_irradiance(std::span<const Lanes> exitance, std::span<Lanes> irradiance, int threads) const;
+
+    /// Whether a vertex is a wanted one, with a surface.
+    bool receives(std::size_t vertex) const { return row_of_[vertex] != not_wanted; }
 
     /// Vertices whose exitance is seen from somewhere: not 0.
     const std::vector<std::uint8_t>& seen() const { return seen_; }
@@ -30,7 +36,9 @@ class Reentry {
     }
 
   private:
-    std::vector<std::uint32_t> row_of_;  ///< for each vertex; rows_.rows(): receives nothing
+    static constexpr std::uint32_t not_wanted = std::numeric_limits<std::uint32_t>::max();
+
+    std::vector<std::uint32_t> row_of_;  ///< for each vertex
     SparseRows<float> rows_;             ///< columns are vertices
     std::vector<std::uint8_t> seen_;
 };

@@ -21,7 +21,27 @@ Lanes each_channel(const glm::dvec3& rgb) {
     return {{static_cast<float>(rgb.r), static_cast<float>(rgb.g), static_cast<float>(rgb.b), 0}};
 }
 
+void scale_by(SiteLight& light, float scale) {
+    for (Lanes& e : light.exitance) e = e * scale;
+    for (Lanes& e : light.reflected) e = e * scale;
+    for (SiteLight& pass : light.again) scale_by(pass, scale);
+}
+
 }  // namespace
+
+SiteLight behind_another(const SiteLight& light, const Lanes& ratio) {
+    SiteLight result{light.exitance, light.reflected};
+    Lanes more = Lanes::all(1);
+    for (const SiteLight& pass : light.again) {
+        more = more * ratio;
+        const Lanes change = more - Lanes::all(1);
+        for (std::size_t s = 0; s < result.exitance.size(); ++s) {
+            result.exitance[s] += change * pass.exitance[s];
+            result.reflected[s] += change * pass.reflected[s];
+        }
+    }
+    return result;
+}
 
 glm::dmat3 ShapeData::combine(const Lanes& exitance) const {
     if (!spectrum) {
@@ -129,8 +149,8 @@ SiteLight ShapeData::solve_nodes(std::span<Lanes> light, const SolveQuality& qua
     const float scale = brightest > 0 ? brightest : 1.0F;
     for (Lanes& e : light) e = each_lane([&](std::size_t k) { return e[k] / scale; });
     SiteLight result = solver->solve(light, quality.tolerance, quality.reentries, on_the_way());
-    for (Lanes& e : result.exitance) e = e * scale;
-    for (Lanes& e : result.reflected) e = e * scale;
+    if (!spectrum) result.again.clear();  // no other tissue will ask
+    scale_by(result, scale);
     return result;
 }
 

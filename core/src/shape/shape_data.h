@@ -33,6 +33,10 @@ struct ColoredLight {
     glm::dvec3 color;
 };
 
+/// Light that was solved, where something else covers the medium.
+/// @param ratio  of what that lets through of light that enters skin again, to what it was solved with; by node
+SiteLight behind_another(const SiteLight& light, const Lanes& ratio);
+
 /// What a shape holds: the solver by nodes, and how nodes make colors. Light is solved at the nodes and
 /// stays there as SiteLight, so that another tissue can make other colors of it.
 struct ShapeData {

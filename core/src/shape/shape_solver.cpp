@@ -26,9 +26,6 @@ constexpr double max_voxels = 6e7;
 constexpr double max_refined_voxels = 4e6;  // with cells smaller than asked for
 /// Flesh in which light falls by this many powers of e within a cell is a half-space.
 constexpr double opaque = 3;
-/// Of a vertex whose exitance is only wanted as light for others: rays, and below what entries chance decides.
-constexpr int reentry_rays = 32;
-constexpr float small_reentry = 2e-3F;
 /// What solving takes, by site, where making a site's rows is 1.
 constexpr double work_of_solved = 0.02;
 
@@ -40,6 +37,12 @@ double margin_of(const LaneMedium& medium, const SolverOptions& options) {
     const double wanted = decay * options.max_thickness_mm > margin_in_decays ? margin_in_decays / decay
                                                                               : options.max_thickness_mm;
     return std::max(wanted, margin_in_cells * options.cell_mm);
+}
+
+/// From a site of a part to the farthest light that matters to it: at the surface of its cells, or at the end of a
+/// flight.
+double light_distance(const LaneMedium& medium, const SolverOptions& options, double margin) {
+    return std::max(margin + margin_in_cells * options.cell_mm, max_flight_depth / medium.min_extinction());
 }
 
 /// The cell of a part: no larger than what most of it is thick, and no smaller than its box can hold.
@@ -98,7 +101,8 @@ ShapeSolver::ShapeSolver(const MeshView& mesh, std::span<const glm::dvec3> point
             done = sites;
         });
     is_solved_.assign(sites_.sites().size(), 0);
-    for (ThinPart& part : thin_parts(body_, sites_, thickness, max_thickness, margin_)) {
+    for (ThinPart& part : thin_parts(body_, sites_, thickness, max_thickness, margin_,
+                                     light_distance(medium, options, margin_))) {
         for (std::size_t i = 0; i < part.sites.size(); ++i) is_solved_[part.sites[i]] = part.weight[i] == 1;
         parts_.push_back(std::make_unique<LazyPart>());
         parts_.back()->part = std::move(part);
@@ -118,52 +122,6 @@ const PartSolver& ShapeSolver::solver_of(const LazyPart& part) const {
                                   {.threads = options_.threads}};
         return PartSolver(surface_, sites_, part.part.sites, medium_, options);
     });
-}
-
-const VertexRows& ShapeSolver::vertex_rows(const LazyPart& part) const {
-    return part.vertices.get([&] {
-        const PartSolver& solver = solver_of(part);
-        VertexRows rows;
-        for (const std::uint32_t v : part.part.own_vertices) {
-            if (reentry().seen()[v] == 0) continue;
-            const std::uint32_t s = vertex_sites().site_of()[v];
-            if (solver.covers(vertex_sites().sites()[s])) rows.sites.push_back(s);
-        }
-        std::sort(rows.sites.begin(), rows.sites.end());
-        rows.sites.erase(std::unique(rows.sites.begin(), rows.sites.end()), rows.sites.end());
-        expect_work(static_cast<double>(rows.sites.size()));
-        rows.flight = solver.flight_of(
-            surface_, vertex_sites(), rows.sites, medium_,
-            {.rays = reentry_rays, .small_entry = small_reentry, .threads = options_.threads});
-        return rows;
-    });
-}
-
-const Reentry& ShapeSolver::reentry() const {
-    return reentry_.get(
-        [&] { return Reentry(surface_, vertex_sites(), wanted_vertices(false), options_.threads); });
-}
-
-std::vector<std::uint8_t> ShapeSolver::wanted_vertices(bool reentries) const {
-    std::vector<std::uint8_t> wanted(body_.welded_of().size(), sites_.are_vertices() ? 1 : 0);
-    if (sites_.are_vertices()) return wanted;
-    for (const auto& part : parts_) {
-        if (const PartSolver* solver = part->solver.ready()) {
-            solver->mark_vertices(wanted);
-        } else {
-            for (const std::uint32_t v : part->part.vertices) wanted[v] = 1;
-        }
-    }
-    for (std::size_t s = 0; s < is_solved_.size(); ++s) {
-        const Site& site = sites_.sites()[s];
-        if (is_solved_[s] != 0 || !site.on_surface) continue;
-        for (int k = 0; k < 3; ++k) wanted[body_.triangles()[site.point.triangle].corners[k]] = 1;
-    }
-    if (reentries) {
-        const std::vector<std::uint8_t>& seen = reentry().seen();
-        for (std::size_t v = 0; v < wanted.size(); ++v) wanted[v] = wanted[v] | seen[v];
-    }
-    return wanted;
 }
 
 Lanes ShapeSolver::light_at(const SurfaceSites& of, const Site& site, std::span<const Lanes> light) const {
@@ -194,16 +152,16 @@ std::vector<Lanes> ShapeSolver::half_space(const SurfaceSites& of, std::span<con
 }
 
 void ShapeSolver::solve_part(const LazyPart& part, bool is_lit, std::span<const Lanes> light,
-                             double tolerance, std::span<Lanes> of_sites,
-                             std::span<Lanes> of_vertex_sites) const {
+                             double tolerance, std::span<Lanes> of_sites, std::span<Lanes> of_vertex_sites,
+                             int steps) const {
     const std::vector<std::uint32_t>& sites = part.part.sites;
     std::vector<Lanes> out(sites.size());
     if (is_lit) {
         const PartSolver& solver = solver_of(part);
         const PartField field = solver.solve(light, tolerance);
         solver.exitance(field, light, out, 1);
-        if (!of_vertex_sites.empty()) {
-            const VertexRows& rows = vertex_rows(part);
+        for (int step = 0; step < steps && !of_vertex_sites.empty(); ++step) {
+            const VertexRows& rows = vertex_rows(part, step);
             std::vector<Lanes> found(rows.sites.size());
             PartSolver::exitance(rows.flight, field, light, found, 1);
             for (std::size_t i = 0; i < found.size(); ++i) of_vertex_sites[rows.sites[i]] = found[i];
@@ -227,8 +185,9 @@ SiteLight ShapeSolver::solve(std::span<const Lanes> light, double tolerance, int
     for (int pass = 0;; ++pass) {
         const std::vector<Lanes> reflected = half_space(sites_, entering);
         std::vector<Lanes> exitance = reflected;
-        // What falls on skin again comes from all vertices.
-        const bool goes_on = pass < reentries;
+        // What falls on skin again comes from vertices.
+        const int left = steps(reentries - pass);
+        const bool goes_on = left > 0;
         const bool has_points = !sites_.are_vertices();
         std::vector<Lanes> of_vertices;
         if (goes_on && has_points) of_vertices = half_space(vertex_sites(), entering);
@@ -240,7 +199,7 @@ SiteLight ShapeSolver::solve(std::span<const Lanes> light, double tolerance, int
         }
         const auto work = [&](std::size_t begin, std::size_t end) {
             for (std::size_t p = begin; p < end; ++p) {
-                solve_part(*parts_[p], is_lit[p] != 0, entering, tolerance, exitance, of_vertices);
+                solve_part(*parts_[p], is_lit[p] != 0, entering, tolerance, exitance, of_vertices, left);
                 finish_work(work_of_solved * static_cast<double>(parts_[p]->part.sites.size()));
             }
         };
@@ -252,12 +211,15 @@ SiteLight ShapeSolver::solve(std::span<const Lanes> light, double tolerance, int
                 result.exitance[s] += exitance[s];
                 result.reflected[s] += reflected[s];
             }
+            result.again.push_back({exitance, reflected});
         }
         if (!goes_on) return result;
         const std::vector<Lanes>& from = has_points ? of_vertices : exitance;
         std::vector<Lanes> leaving(entering.size());
         for (std::size_t v = 0; v < leaving.size(); ++v) leaving[v] = from[vertex_sites().site_of()[v]];
-        entering = reentry().irradiance(leaving, options_.threads);
+        std::fill(entering.begin(), entering.end(), Lanes{});
+        for (int step = 0; step < left; ++step)
+            reentry(step).add_irradiance(leaving, entering, options_.threads);
         for (Lanes& e : entering) e = e * on_the_way;
     }
 }
@@ -271,7 +233,9 @@ double ShapeSolver::solve_work(int reentries) const {
 std::size_t ShapeSolver::bytes() const {
     std::size_t sum = 0;
     for (const auto& part : parts_) sum += part->bytes();
-    if (const Reentry* rows = reentry_.ready()) sum += rows->bytes();
+    for (const Lazy<Reentry>& step : reentry_) {
+        if (const Reentry* rows = step.ready()) sum += rows->bytes();
+    }
     return sum;
 }
 

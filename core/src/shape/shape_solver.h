@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -20,6 +22,8 @@ struct SolverOptions {
 struct SiteLight {
     std::vector<Lanes> exitance;
     std::vector<Lanes> reflected;  ///< what a half-space would send out under the irradiance of the site
+    /// What of both is due to light that entered skin again once, twice, ...: it passed what covers the medium as often.
+    std::vector<SiteLight> again = {};
 };
 
 /// The flesh of a mesh of one medium: from irradiance at its vertices to exitance at its sites, node by node.
@@ -41,8 +45,8 @@ class ShapeSolver {
                     const Lanes& on_the_way = Lanes::all(1)) const;
 
     /// Vertices whose irradiance matters to the sites, not 0.
-    /// @param reentries  whether light that enters skin again counts
-    std::vector<std::uint8_t> wanted_vertices(bool reentries) const;
+    /// @param reentries  how often light that leaves skin enters skin again before it gets there
+    std::vector<std::uint8_t> wanted_vertices(int reentries) const;
 
     const Body& body() const { return body_; }
     const FleshSurface& surface() const { return surface_; }
@@ -56,12 +60,18 @@ class ShapeSolver {
 
   private:
     const PartSolver& solver_of(const LazyPart& part) const;
-    const VertexRows& vertex_rows(const LazyPart& part) const;
-    const Reentry& reentry() const;
+    const VertexRows& vertex_rows(const LazyPart& part, int step) const;
+    /// Where light that enters skin again falls: in step 0 what matters to the sites themselves, in each further one
+    /// what matters to the skin that the one before gets its light from, and is in none before.
+    const Reentry& reentry(int step) const;
+    /// Steps for light that has to enter skin as often: all vertices are in the first where they are the sites.
+    int steps(int reentries) const { return sites_.are_vertices() ? std::min(reentries, 1) : reentries; }
+    void mark_site_vertices(std::span<std::uint8_t> wanted) const;
+    void mark_seen_in(int step, std::span<std::uint8_t> wanted) const;
     Lanes light_at(const SurfaceSites& of, const Site& site, std::span<const Lanes> light) const;
     std::vector<Lanes> half_space(const SurfaceSites& of, std::span<const Lanes> light) const;
     void solve_part(const LazyPart& part, bool is_lit, std::span<const Lanes> light, double tolerance,
-                    std::span<Lanes> of_sites, std::span<Lanes> of_vertex_sites) const;
+                    std::span<Lanes> of_sites, std::span<Lanes> of_vertex_sites, int steps) const;
 
     SolverOptions options_;
     Body body_;
@@ -72,7 +82,7 @@ class ShapeSolver {
     std::vector<std::unique_ptr<LazyPart>> parts_;
     std::vector<std::uint8_t> is_solved_;  ///< one per site: no half-space is in it
     Lazy<SurfaceSites> vertex_sites_;      ///< where the sites are points
-    Lazy<Reentry> reentry_;
+    std::array<Lazy<Reentry>, max_reentries> reentry_;
 };
 
 }  // namespace skinglow::detail

@@ -220,6 +220,11 @@ void SolvedLight::sum_irradiance(LightTracer& tracer) {
         });
     }
     if (state_of_world_ == LightState::alone) add(tracer.of_world(*world), 1, irradiance);
+    // What was traced for parts that were not ready yet, and turned out not to matter, is no part of the answer.
+    const std::vector<std::uint8_t> wanted = shape->solver->wanted_vertices(options.reentries);
+    for (std::size_t v = 0; v < irradiance.size(); ++v) {
+        if (wanted[v] == 0) irradiance[v] = glm::dvec3(0.0);
+    }
     require_irradiances(light_at_vertices, irradiance);
 }
 

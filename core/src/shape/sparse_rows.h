@@ -53,6 +53,13 @@ class SparseRows {
         return {value_.data() + begin_[row], begin_[row + 1] - begin_[row]};
     }
     const std::vector<std::uint32_t>& all_columns() const { return column_; }
+    /// Columns that have an entry, ascending.
+    std::vector<std::uint32_t> used_columns() const {
+        std::vector<std::uint32_t> used = column_;
+        std::sort(used.begin(), used.end());
+        used.erase(std::unique(used.begin(), used.end()), used.end());
+        return used;
+    }
 
   private:
     std::vector<std::uint32_t> begin_{0};

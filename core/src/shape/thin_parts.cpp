@@ -54,9 +54,9 @@ std::vector<glm::vec3> triangle_points(const Body& body, const BodyTriangle& t, 
     return points;
 }
 
-/// The vertices whose light matters somewhere, by blocks of a margin.
-SpaceBlocks vertices_by_light(const Body& body, double margin) {
-    SpaceBlocks vertices(margin);
+/// The vertices whose light matters somewhere, by blocks of the distance that it comes from.
+SpaceBlocks vertices_by_light(const Body& body, double distance) {
+    SpaceBlocks vertices(distance);
     for (std::uint32_t v = 0; v < body.welded_of().size(); ++v)
         vertices.add(body.positions()[body.welded_of()[v]], v);
     // A large triangle brings light from corners that may be far away.
@@ -66,7 +66,7 @@ SpaceBlocks vertices_by_light(const Body& body, double margin) {
         for (int k = 0; k < 3; ++k) {
             const glm::vec3 a = body.corner(t, k);
             const glm::vec3 b = body.corner(t, (k + 1) % 3);
-            const auto steps = static_cast<int>(glm::length(b - a) / static_cast<float>(margin));
+            const auto steps = static_cast<int>(glm::length(b - a) / static_cast<float>(distance));
             if (steps == 0) continue;
             for (const glm::vec3& p : triangle_points(body, t, std::min(steps + 1, max_steps))) {
                 for (int c = 0; c < 3; ++c) vertices.add(p, t.corners[c]);
@@ -175,14 +175,14 @@ std::vector<SiteThickness> site_thickness(const FleshSurface& surface, const Sur
 
 std::vector<ThinPart> thin_parts(const Body& body, const SurfaceSites& sites,
                                  const std::vector<SiteThickness>& thickness, double max_thickness,
-                                 double margin) {
+                                 double margin, double light_distance) {
     const std::vector<float> weights = site_weights(sites, thickness, max_thickness, margin);
     std::vector<std::uint32_t> chosen;
     for (std::uint32_t i = 0; i < weights.size(); ++i) {
         if (weights[i] > 0) chosen.push_back(i);
     }
     if (chosen.empty()) return {};
-    const SpaceBlocks vertices = vertices_by_light(body, margin);
+    const SpaceBlocks vertices = vertices_by_light(body, light_distance);
     std::vector<ThinPart> parts;
     for (std::vector<std::uint32_t>& group : site_groups(body, sites, chosen, margin))
         parts.push_back(make_part(body, sites, std::move(group), thickness, weights, vertices, margin));

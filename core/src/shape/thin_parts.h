@@ -38,8 +38,9 @@ std::vector<SiteThickness> site_thickness(const FleshSurface& surface, const Sur
 /// distance. What lies behind the margin does not matter, so that any groups can be solved apart: they are
 /// what hangs together by gaps below the margin, cut where it is narrow until no group is long beside the
 /// margin.
+/// @param light_distance  from a site to the farthest light that matters to it, mm
 std::vector<ThinPart> thin_parts(const Body& body, const SurfaceSites& sites,
                                  const std::vector<SiteThickness>& thickness, double max_thickness,
-                                 double margin);
+                                 double margin, double light_distance);
 
 }  // namespace skinglow::detail
