@@ -370,7 +370,7 @@ class ShapeReport(NamedTuple):
     bytes: int
     points: int  #: that the texels show
     thick_points: int  #: of them those in no thin part, through which no light comes
-    milliseconds: float | None  #: that the last answer took
+    milliseconds: float | None  #: that the last answer took; None: it was the first
     first_seconds: float | None  #: that its first light took, as in each frame in which the mesh deforms
     error: tuple[float, ...]  #: (r, g, b): estimated error, RMS over mean; empty before the full answer
     reason: Unfit | None  #: why the skin is lit per pixel instead; None: it is not
@@ -393,7 +393,7 @@ def shape_report(obj: bpy.types.Object, mode: str = "VIEWPORT") -> ShapeReport |
         bytes=report.get("bytes", 0),
         points=report.get("points", 0),
         thick_points=report.get("points", 0) - report.get("points_in_parts", 0),
-        milliseconds=1000.0 * answer.seconds if answer is not None else None,
+        milliseconds=1000.0 * answer.seconds if answer is not None and answer.seconds is not None else None,
         first_seconds=answer.body.first_seconds if answer is not None else None,
         error=answer.error if answer is not None else (),
         reason=state.reason,

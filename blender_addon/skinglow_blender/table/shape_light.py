@@ -161,7 +161,7 @@ class Answer(NamedTuple):
     radiance: np.ndarray  #: (k, 3) at the targets, linear Rec.709
     full: bool  #: not a coarse one
     recolors: bool  #: whether other colors are sums alone
-    seconds: float  #: that it took
+    seconds: float | None  #: that it took; None: it was the body's first light (Body.first_seconds)
     report: dict[str, Any]  #: of the shape then, as skinglow.Shape.report
     error: tuple[float, ...] = ()  #: RMS of the estimated error over the mean; only if full
 
@@ -212,9 +212,9 @@ def _solved(shape: Any, body: Body, light: Light, progress: Progress, *, full: b
         progress=progress,
         **({} if full else COARSE),
     )
-    seconds = time.perf_counter() - started
+    seconds: float | None = time.perf_counter() - started
     if body.last_lit is None:
-        body.first_seconds += seconds
+        body.first_seconds, seconds = body.first_seconds + seconds, None
     body.last_lit = lit
     error = tuple(float(e) for e in lit.report["error"]) if full else ()
     radiance = radiance_of(lit)

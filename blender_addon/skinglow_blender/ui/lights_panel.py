@@ -127,10 +127,12 @@ def _draw_shape(column: bpy.types.UILayout, report: ShapeReport, context: bpy.ty
     if report.ready_parts < report.parts:
         solved += ", no light falls on the others"
     draw_wrapped(column, solved, context, "MESH_DATA")
-    cost = f"{report.cells:,} cells, {report.bytes / 1e6:.0f} MB, {report.milliseconds:.0f} ms"
-    draw_wrapped(column, cost, context, "BLANK1")
+    draw_wrapped(column, f"{report.cells:,} cells, {report.bytes / 1e6:.0f} MB", context, "BLANK1")
     first = f"The first light took {report.first_seconds:.1f} s, as each frame takes in which the mesh deforms"
     draw_wrapped(column, first, context, "BLANK1")
+    # What making the body ready took is no light's.
+    if report.milliseconds is not None:
+        draw_wrapped(column, f"The last light took {report.milliseconds:.0f} ms", context, "BLANK1")
     if report.error:
         error = ", ".join(f"{part:.0%}" if part < 1.0 else "100% or more" for part in report.error)
         draw_wrapped(column, f"Estimated error {error} (R, G, B)", context, "BLANK1")
