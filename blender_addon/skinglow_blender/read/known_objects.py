@@ -29,7 +29,7 @@ class Known:
         layer = depsgraph.view_layer
         taken = set(read)
         others = [obj for obj in layer.objects if obj not in taken]
-        self._hidden = [obj for obj in others if obj.type == "LIGHT"]
+        self._hidden = [obj for obj in others if obj.type == "LIGHT" or (obj.type == "MESH" and obj.skinglow.enabled)]
         self._hidden += [obj for obj in others if not obj.visible_get(view_layer=layer) and may_instance(obj)]
         self._instancers = instancers
         self._mark = self._mark_of(depsgraph, world)

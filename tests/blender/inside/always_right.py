@@ -61,6 +61,35 @@ def check_hide_and_exclude(_work):
     assert_shows(obj, paper_table([key, fill]))
 
 
+def check_a_skin_that_was_hidden_shows_the_light_of_now(_work):
+    """Not that of when it was hidden: with H, its eye or its collection."""
+    obj = skin()
+    collection = bpy.data.collections.new("Heads")
+    bpy.context.scene.collection.children.link(collection)
+    key = add_light("Key")
+    other = skin("Other")
+    collection.objects.link(other)
+    bpy.context.scene.collection.objects.unlink(other)
+    layer = bpy.context.view_layer.layer_collection.children["Heads"]
+
+    def hide(hidden):
+        other.hide_set(hidden)
+
+    ways = [hide]
+    for owner, name in ((other, "hide_viewport"), (layer, "hide_viewport"), (layer, "exclude")):
+        ways.append(lambda hidden, owner=owner, name=name: setattr(owner, name, hidden))
+    for number, way in enumerate(ways):
+        assert_fresh(other)
+        way(True)
+        depsgraph()
+        key.data.color = (0.1, 0.2 * number, 1.0)
+        key.location.x += 0.5
+        depsgraph()
+        way(False)
+        assert_fresh(other)
+        assert_fresh(obj)
+
+
 def check_parent_constrain_drive(_work):
     obj = skin()
     holder = link(bpy.data.objects.new("Holder", None))
