@@ -21,6 +21,7 @@ from ..thickness import thickness_attribute
 from ..thickness.thickness_attribute import KNOWN_ATTRIBUTE, THICKNESS_ATTRIBUTE
 from .freezing import unfreeze
 from .material_health import REPAIR, Fault, layer_faults, material_faults, measured_slots
+from .rendered_objects import RenderedObjects
 from .skin import make_skin, skin_settings_of
 
 MEASURE = "press Measure Thickness"
@@ -158,8 +159,9 @@ def repair(obj: bpy.types.Object) -> None:
 def require_health(scene: bpy.types.Scene, frames: Iterable[int]) -> None:
     """Raises SkinError with the faults of all skins that the scene renders, in these frames, but not for hints."""
     faults = []
+    rendered = RenderedObjects(scene)
     for obj in scene.objects:
-        if obj.type != "MESH" or not obj.skinglow.enabled or obj.hide_render:
+        if obj.type != "MESH" or not obj.skinglow.enabled or not rendered.shows(obj):
             continue
         # The scene may be at any frame.
         found = [fault for fault in health(obj) if not fault.is_hint and fault.remedy != FREEZE_MORE]
