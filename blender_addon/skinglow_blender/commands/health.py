@@ -9,6 +9,7 @@ import numpy as np
 from ..errors import SkinError
 from ..identity import key_of
 from ..live.shape_update import EDIT_MODE, shape_report
+from ..read.enabled_objects import is_followed
 from ..read.measured_size import is_reshaped, is_stretched
 from ..read.mesh_reading import evaluated_mesh, vertices_of_slots
 from ..session import SESSION
@@ -27,8 +28,11 @@ from .skin import make_skin, skin_settings_of
 MEASURE = "press Measure Thickness"
 MEASURE_APPLIED = f"{MEASURE}; if a modifier makes these vertices, apply it first"
 CHOOSE_REFERENCE = "Choose them in the panel Lookup Table, under Light Distance From"
+INCLUDE_REFERENCE = "include it, or hide it with the eye"
 FREEZE_AGAIN = "unfreeze it, or then freeze it again"
 FREEZE_MORE = "unfreeze it, or then freeze more frames"
+#: What no button does.
+BY_HAND = frozenset({CHOOSE_REFERENCE, INCLUDE_REFERENCE})
 
 
 def health(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None = None) -> list[Fault]:
@@ -71,9 +75,7 @@ def quick_faults(obj: bpy.types.Object) -> list[Fault]:
     if report is not None and report.reason not in (None, EDIT_MODE):
         what, remedy = report.reason
         faults.append(Fault(f"It is lit per pixel, not through its shape: {what}", remedy))
-    settings = obj.skinglow
-    if settings.reference == "OBJECT" and not _has_reference(settings):
-        faults.append(Fault("The object or bone that it measures light distances from is missing", CHOOSE_REFERENCE))
+    faults += _reference_faults(obj)
     mesh = obj.data
     if obj.material_slots and not any(measured_slots(obj)):
         return faults
@@ -99,9 +101,17 @@ def _group_faults(group: bpy.types.NodeTree) -> Iterator[Fault]:
         yield Fault("An image of its tiles was deleted", REPAIR)
 
 
-def _has_reference(settings: bpy.types.PropertyGroup) -> bool:
-    obj, bone = settings.reference_object, settings.reference_bone
-    return obj is not None and (not bone or (obj.pose is not None and bone in obj.pose.bones))
+def _reference_faults(obj: bpy.types.Object) -> Iterator[Fault]:
+    settings, layer = obj.skinglow, bpy.context.view_layer
+    if settings.reference != "OBJECT":
+        return
+    reference, bone = settings.reference_object, settings.reference_bone
+    if reference is None or (bone and (reference.pose is None or bone not in reference.pose.bones)):
+        yield Fault("The object or bone that it measures light distances from is missing", CHOOSE_REFERENCE)
+    # Of a skin that this layer does not show, another one knows more.
+    elif layer is not None and obj.name in layer.objects and not is_followed(reference, layer):
+        what = f"'{reference.name}' is not evaluated in this view layer (excluded or disabled)"
+        yield Fault(f"{what}: the distance of its lights does not follow it", INCLUDE_REFERENCE)
 
 
 def _frozen_faults(obj: bpy.types.Object, group: bpy.types.NodeTree) -> list[Fault]:
@@ -164,7 +174,11 @@ def require_health(scene: bpy.types.Scene, frames: Iterable[int]) -> None:
         if obj.type != "MESH" or not obj.skinglow.enabled or not rendered.shows(obj):
             continue
         # The scene may be at any frame.
-        found = [fault for fault in health(obj) if not fault.is_hint and fault.remedy != FREEZE_MORE]
+        passed_over = {FREEZE_MORE}
+        reference = obj.skinglow.reference_object
+        if reference is not None and rendered.follows(reference):
+            passed_over.add(INCLUDE_REFERENCE)  # what is disabled in the viewport alone
+        found = [fault for fault in health(obj) if not fault.is_hint and fault.remedy not in passed_over]
         if is_frozen(obj.skinglow.group):
             first, last = frozen_frames(obj.skinglow.group)
             missing = [frame for frame in frames if not first <= frame <= last]
