@@ -23,16 +23,19 @@ from ..thickness.thickness_attribute import KNOWN_ATTRIBUTE, THICKNESS_ATTRIBUTE
 from .freezing import unfreeze
 from .material_health import REPAIR, Fault, layer_faults, material_faults, measured_slots
 from .rendered_objects import RenderedObjects
-from .skin import make_skin, skin_settings_of
+from .skin import remake_skin, skin_settings_of
 
 MEASURE = "press Measure Thickness"
 MEASURE_APPLIED = f"{MEASURE}; if a modifier makes these vertices, apply it first"
 CHOOSE_REFERENCE = "Choose them in the panel Lookup Table, under Light Distance From"
 INCLUDE_REFERENCE = "include it, or hide it with the eye"
+OWN_MESH = (
+    "give it a mesh of its own (Object > Relations > Make Single User > Object & Data), then press Measure Thickness"
+)
 FREEZE_AGAIN = "unfreeze it, or then freeze it again"
 FREEZE_MORE = "unfreeze it, or then freeze more frames"
 #: What no button does.
-BY_HAND = frozenset({CHOOSE_REFERENCE, INCLUDE_REFERENCE})
+BY_HAND = frozenset({CHOOSE_REFERENCE, INCLUDE_REFERENCE, OWN_MESH})
 
 
 def health(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None = None) -> list[Fault]:
@@ -84,10 +87,17 @@ def quick_faults(obj: bpy.types.Object) -> list[Fault]:
     elif is_reshaped(mesh) and thickness_attribute.is_from_measurement(mesh):
         faults.append(Fault("Its mesh was edited after its thickness was measured", MEASURE))
     elif what := thickness_attribute.measured_otherwise(obj, bpy.context.scene):
-        faults.append(Fault(what, MEASURE))
+        other = thickness_attribute.user_that_fits(obj)
+        if other is not None:
+            what = f"{what}; it is that of '{other.name}', which has the same mesh"
+        faults.append(Fault(what, MEASURE if other is None else OWN_MESH))
     elif thickness_attribute.is_from_measurement(mesh) and is_stretched(obj):
-        # A hint: animation may squash and stretch it.
-        faults.append(Fault("It was scaled unevenly after its thickness was measured", MEASURE, is_hint=True))
+        # Hints: animation may squash and stretch it.
+        other = next((o for o in thickness_attribute.sharing_skins(obj) if not is_stretched(o)), None)
+        what = "It was scaled unevenly after its thickness was measured"
+        if other is not None:
+            what = f"It is scaled unlike '{other.name}', which has the same mesh and so its thickness"
+        faults.append(Fault(what, MEASURE if other is None else OWN_MESH, is_hint=True))
     return faults
 
 
@@ -149,8 +159,13 @@ def thickness_faults(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> l
         share = np.count_nonzero(~known) / len(known)
         what = f"The thickness is not known at {share:.1%} of the vertices shown, which do not glow"
         faults.append(Fault(what, MEASURE_APPLIED))
-    elif thickness_attribute.is_from_measurement(obj.data) and not thickness_attribute.is_of_this_mesh(obj):
-        faults.append(Fault("Its mesh or its modifiers were edited after its thickness was measured", MEASURE))
+    elif thickness_attribute.is_from_measurement(obj.data):
+        user = thickness_attribute.measured_as(obj)
+        if user is None:
+            faults.append(Fault("Its mesh or its modifiers were edited after its thickness was measured", MEASURE))
+        elif user != obj:
+            what = f"Its thickness is that of '{user.name}', which has the same mesh and other modifiers"
+            faults.append(Fault(what, OWN_MESH, is_hint=True))
     if has_empty_faces:
         faults.append(
             Fault("Faces in a material slot that is empty do not glow", "give the slot a material", is_hint=True)
@@ -159,11 +174,22 @@ def thickness_faults(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> l
 
 
 def repair(obj: bpy.types.Object) -> None:
-    """Makes a skin anew as far as something is wrong with it: nodes, images, thickness."""
+    """Makes a skin anew as far as something is wrong with it: nodes, images, thickness.
+
+    A thickness that nothing is wrong with stays, as that of another skin with the same mesh, which would have the fault
+    instead, or that of modifiers which are hidden only to work faster.
+    """
     settings = obj.skinglow
     if is_frozen(settings.group) and shown_image(settings.group) is None:
         unfreeze([obj])
-    make_skin(obj)
+    measure = _asks_to_measure(obj)
+    remake_skin(obj, measure=measure)
+    if not measure and _asks_to_measure(obj):  # of a material that only now has the node
+        remake_skin(obj, measure=True)
+
+
+def _asks_to_measure(obj: bpy.types.Object) -> bool:
+    return any(fault.remedy in (MEASURE, MEASURE_APPLIED) for fault in health(obj))
 
 
 def require_health(scene: bpy.types.Scene, frames: Iterable[int]) -> None:
