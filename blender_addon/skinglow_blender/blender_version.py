@@ -214,3 +214,12 @@ def corner_normals(mesh: bpy.types.Mesh) -> np.ndarray:
         mesh.calc_normals_split()
         mesh.loops.foreach_get("normal", normals)
     return normals.reshape(-1, 3)
+
+
+def node_inputs(modifier: bpy.types.NodesModifier) -> list[Any]:
+    """What a modifier gives to the inputs of its geometry nodes; custom properties until 5.2."""
+    if not hasattr(modifier, "properties"):
+        return list(modifier.values())
+    inputs = modifier.properties.inputs if modifier.node_group is not None else None
+    names = [p.identifier for p in inputs.bl_rna.properties if p.type == "POINTER"] if inputs is not None else ()
+    return [getattr(getattr(inputs, name), "value", None) for name in names if name != "rna_type"]

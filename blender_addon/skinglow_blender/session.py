@@ -7,6 +7,8 @@ import time
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from .identity import key_of
+
 if TYPE_CHECKING:
     import bpy
 
@@ -97,8 +99,13 @@ class Session:
         address, reading = self.reading or (None, None)
         return reading if address == depsgraph.as_pointer() else None
 
-    def note_reshaped(self, keys: Iterable[str]) -> None:
-        """Has what was found of the thickness of skins looked at again: their meshes changed."""
+    def note_reshaped(self, changed: Iterable[bpy.types.ID]) -> None:
+        """Has what was found of the thickness of skins looked at again: these, or their meshes, changed."""
+        keys: set[str] = set()
+        for each in changed:
+            mesh = getattr(each.original, "data", None)
+            # The modifiers of one object matter to others with the same mesh.
+            keys |= {key_of(each)} if mesh is None or mesh.users < 2 else self.thickness_faults.keys()
         for key in keys:
             if key in self.thickness_faults:
                 self.thickness_faults[key] = (None, self.thickness_faults[key][1])

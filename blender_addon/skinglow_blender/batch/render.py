@@ -13,6 +13,7 @@ import bpy
 
 from ..commands.freezing import frozen_state
 from ..commands.health import require_health
+from ..commands.rendered_objects import RenderedObjects
 from ..commands.skin import skin_settings_of
 from ..errors import SkinError, TemporaryError
 from ..live.live_update import update_scene
@@ -131,7 +132,8 @@ def _check_scene(scene: bpy.types.Scene) -> None:
 
 def _require_live(scene: bpy.types.Scene) -> None:
     """Raises SkinError for a skin that no rig can light."""
-    frozen = [obj.name for obj in scene.objects if obj.type == "MESH" and frozen_state(obj) and not obj.hide_render]
+    rendered = RenderedObjects(scene)
+    frozen = [obj.name for obj in scene.objects if obj.type == "MESH" and frozen_state(obj) and rendered.shows(obj)]
     if frozen:
         raise SkinError(f"{', '.join(frozen)}: frozen, so they do not follow light rigs: unfreeze them first")
 

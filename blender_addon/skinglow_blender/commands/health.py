@@ -9,6 +9,7 @@ import numpy as np
 from ..errors import SkinError
 from ..identity import key_of
 from ..live.shape_update import EDIT_MODE, shape_report
+from ..read.enabled_objects import is_followed
 from ..read.measured_size import is_reshaped, is_stretched
 from ..read.mesh_reading import evaluated_mesh, vertices_of_slots
 from ..session import SESSION
@@ -21,13 +22,20 @@ from ..thickness import thickness_attribute
 from ..thickness.thickness_attribute import KNOWN_ATTRIBUTE, THICKNESS_ATTRIBUTE
 from .freezing import unfreeze
 from .material_health import REPAIR, Fault, layer_faults, material_faults, measured_slots
-from .skin import make_skin, skin_settings_of
+from .rendered_objects import RenderedObjects
+from .skin import remake_skin, skin_settings_of
 
 MEASURE = "press Measure Thickness"
 MEASURE_APPLIED = f"{MEASURE}; if a modifier makes these vertices, apply it first"
 CHOOSE_REFERENCE = "Choose them in the panel Lookup Table, under Light Distance From"
+INCLUDE_REFERENCE = "include it, or hide it with the eye"
+OWN_MESH = (
+    "give it a mesh of its own (Object > Relations > Make Single User > Object & Data), then press Measure Thickness"
+)
 FREEZE_AGAIN = "unfreeze it, or then freeze it again"
 FREEZE_MORE = "unfreeze it, or then freeze more frames"
+#: What no button does.
+BY_HAND = frozenset({CHOOSE_REFERENCE, INCLUDE_REFERENCE, OWN_MESH})
 
 
 def health(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None = None) -> list[Fault]:
@@ -70,9 +78,7 @@ def quick_faults(obj: bpy.types.Object) -> list[Fault]:
     if report is not None and report.reason not in (None, EDIT_MODE):
         what, remedy = report.reason
         faults.append(Fault(f"It is lit per pixel, not through its shape: {what}", remedy))
-    settings = obj.skinglow
-    if settings.reference == "OBJECT" and not _has_reference(settings):
-        faults.append(Fault("The object or bone that it measures light distances from is missing", CHOOSE_REFERENCE))
+    faults += _reference_faults(obj)
     mesh = obj.data
     if obj.material_slots and not any(measured_slots(obj)):
         return faults
@@ -81,10 +87,17 @@ def quick_faults(obj: bpy.types.Object) -> list[Fault]:
     elif is_reshaped(mesh) and thickness_attribute.is_from_measurement(mesh):
         faults.append(Fault("Its mesh was edited after its thickness was measured", MEASURE))
     elif what := thickness_attribute.measured_otherwise(obj, bpy.context.scene):
-        faults.append(Fault(what, MEASURE))
+        other = thickness_attribute.user_that_fits(obj)
+        if other is not None:
+            what = f"{what}; it is that of '{other.name}', which has the same mesh"
+        faults.append(Fault(what, MEASURE if other is None else OWN_MESH))
     elif thickness_attribute.is_from_measurement(mesh) and is_stretched(obj):
-        # A hint: animation may squash and stretch it.
-        faults.append(Fault("It was scaled unevenly after its thickness was measured", MEASURE, is_hint=True))
+        # Hints: animation may squash and stretch it.
+        other = next((o for o in thickness_attribute.sharing_skins(obj) if not is_stretched(o)), None)
+        what = "It was scaled unevenly after its thickness was measured"
+        if other is not None:
+            what = f"It is scaled unlike '{other.name}', which has the same mesh and so its thickness"
+        faults.append(Fault(what, MEASURE if other is None else OWN_MESH, is_hint=True))
     return faults
 
 
@@ -98,9 +111,17 @@ def _group_faults(group: bpy.types.NodeTree) -> Iterator[Fault]:
         yield Fault("An image of its tiles was deleted", REPAIR)
 
 
-def _has_reference(settings: bpy.types.PropertyGroup) -> bool:
-    obj, bone = settings.reference_object, settings.reference_bone
-    return obj is not None and (not bone or (obj.pose is not None and bone in obj.pose.bones))
+def _reference_faults(obj: bpy.types.Object) -> Iterator[Fault]:
+    settings, layer = obj.skinglow, bpy.context.view_layer
+    if settings.reference != "OBJECT":
+        return
+    reference, bone = settings.reference_object, settings.reference_bone
+    if reference is None or (bone and (reference.pose is None or bone not in reference.pose.bones)):
+        yield Fault("The object or bone that it measures light distances from is missing", CHOOSE_REFERENCE)
+    # Of a skin that this layer does not show, another one knows more.
+    elif layer is not None and obj.name in layer.objects and not is_followed(reference, layer):
+        what = f"'{reference.name}' is not evaluated in this view layer (excluded or disabled)"
+        yield Fault(f"{what}: the distance of its lights does not follow it", INCLUDE_REFERENCE)
 
 
 def _frozen_faults(obj: bpy.types.Object, group: bpy.types.NodeTree) -> list[Fault]:
@@ -138,8 +159,13 @@ def thickness_faults(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> l
         share = np.count_nonzero(~known) / len(known)
         what = f"The thickness is not known at {share:.1%} of the vertices shown, which do not glow"
         faults.append(Fault(what, MEASURE_APPLIED))
-    elif thickness_attribute.is_from_measurement(obj.data) and not thickness_attribute.is_of_this_mesh(obj):
-        faults.append(Fault("Its mesh or its modifiers were edited after its thickness was measured", MEASURE))
+    elif thickness_attribute.is_from_measurement(obj.data):
+        user = thickness_attribute.measured_as(obj)
+        if user is None:
+            faults.append(Fault("Its mesh or its modifiers were edited after its thickness was measured", MEASURE))
+        elif user != obj:
+            what = f"Its thickness is that of '{user.name}', which has the same mesh and other modifiers"
+            faults.append(Fault(what, OWN_MESH, is_hint=True))
     if has_empty_faces:
         faults.append(
             Fault("Faces in a material slot that is empty do not glow", "give the slot a material", is_hint=True)
@@ -148,21 +174,37 @@ def thickness_faults(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> l
 
 
 def repair(obj: bpy.types.Object) -> None:
-    """Makes a skin anew as far as something is wrong with it: nodes, images, thickness."""
+    """Makes a skin anew as far as something is wrong with it: nodes, images, thickness.
+
+    A thickness that nothing is wrong with stays, as that of another skin with the same mesh, which would have the fault
+    instead, or that of modifiers which are hidden only to work faster.
+    """
     settings = obj.skinglow
     if is_frozen(settings.group) and shown_image(settings.group) is None:
         unfreeze([obj])
-    make_skin(obj)
+    measure = _asks_to_measure(obj)
+    remake_skin(obj, measure=measure)
+    if not measure and _asks_to_measure(obj):  # of a material that only now has the node
+        remake_skin(obj, measure=True)
+
+
+def _asks_to_measure(obj: bpy.types.Object) -> bool:
+    return any(fault.remedy in (MEASURE, MEASURE_APPLIED) for fault in health(obj))
 
 
 def require_health(scene: bpy.types.Scene, frames: Iterable[int]) -> None:
     """Raises SkinError with the faults of all skins that the scene renders, in these frames, but not for hints."""
     faults = []
+    rendered = RenderedObjects(scene)
     for obj in scene.objects:
-        if obj.type != "MESH" or not obj.skinglow.enabled or obj.hide_render:
+        if obj.type != "MESH" or not obj.skinglow.enabled or not rendered.shows(obj):
             continue
         # The scene may be at any frame.
-        found = [fault for fault in health(obj) if not fault.is_hint and fault.remedy != FREEZE_MORE]
+        passed_over = {FREEZE_MORE}
+        reference = obj.skinglow.reference_object
+        if reference is not None and rendered.follows(reference):
+            passed_over.add(INCLUDE_REFERENCE)  # what is disabled in the viewport alone
+        found = [fault for fault in health(obj) if not fault.is_hint and fault.remedy not in passed_over]
         if is_frozen(obj.skinglow.group):
             first, last = frozen_frames(obj.skinglow.group)
             missing = [frame for frame in frames if not first <= frame <= last]

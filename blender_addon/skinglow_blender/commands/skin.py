@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes skins, queries what they show and removes them."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, NamedTuple
 
 import bpy
@@ -73,6 +73,33 @@ def make_skin(
                unit_mm, rays, ... Another call changes only the given ones.
     Raises SkinError if the object cannot be a skin, ValueError naming a setting that is not allowed.
     """
+
+    def keep_or_measure() -> None:
+        scene = bpy.context.scene
+        if thickness is None:
+            thickness_attribute.ensure_measured(obj, scene)
+        else:
+            thickness_attribute.store(obj, thickness, measured_geometry.unit_mm(obj, scene))
+
+    return _make(obj, keep_or_measure, slots, settings)
+
+
+def remake_skin(obj: bpy.types.Object, *, measure: bool) -> SkinState:
+    """The same of a skin as it is; measure: whether its thickness is measured if its mesh, scale or unit changed."""
+
+    def keep_or_measure() -> None:
+        if measure:
+            thickness_attribute.ensure_measured(obj, bpy.context.scene)
+
+    return _make(obj, keep_or_measure, None, {})
+
+
+def _make(
+    obj: bpy.types.Object,
+    store_thickness: Callable[[], object],
+    slots: Iterable[int | str] | None,
+    settings: dict[str, Any],
+) -> SkinState:
     measured_geometry.check_mesh(obj)
     if "reference_point" in settings:
         settings.setdefault("reference", "POINT")
@@ -82,11 +109,7 @@ def make_skin(
     choose = choose_slots(obj, slots) if slots is not None else None
     with applied(obj.skinglow, settings):
         scene = bpy.context.scene
-        if thickness is None:
-            thickness_attribute.ensure_measured(obj, scene)
-        else:
-            thickness_attribute.store(obj, thickness, measured_geometry.unit_mm(obj, scene))
-
+        store_thickness()
         if choose is not None:
             choose()
         group = add_to_materials(obj, obj.skinglow.group)

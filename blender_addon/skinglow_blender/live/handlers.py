@@ -49,7 +49,7 @@ def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
     if not follows_lights():
         return
     changes = changes_of(depsgraph, known)
-    SESSION.note_reshaped(map(key_of, changes.reshaped))
+    SESSION.note_reshaped(changes.reshaped)
     if not changes.objects and known is not None:
         SESSION.known[address] = known
     if not any(changes):

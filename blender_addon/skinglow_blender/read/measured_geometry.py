@@ -6,7 +6,8 @@ vertex that it became.
 """
 
 import hashlib
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
@@ -85,9 +86,27 @@ def read_geometry(obj: bpy.types.Object, scene: bpy.types.Scene) -> Geometry:
 
 def mesh_digest(obj: bpy.types.Object) -> str:
     """A digest of a mesh without its modifiers, and of the kinds of those that may move its vertices."""
-    state = hashlib.sha256(vertices_of(obj.data).tobytes())
-    state.update(triangles_of(obj.data).tobytes())
-    state.update(" ".join(m.type for m in obj.modifiers if m.show_viewport and not _moves_nothing(m)).encode())
+    return _digest_with_modifiers(_digest_of(obj.data), obj, "show_viewport")
+
+
+def mesh_digests(objects: Sequence[bpy.types.Object]) -> list[set[str]]:
+    """The digests of objects that share one mesh: with the modifiers that the viewport and those that a render shows.
+
+    Who hides a modifier in the viewport to work faster wants the thickness that was measured with it.
+    """
+    mesh = _digest_of(objects[0].data)
+    return [{_digest_with_modifiers(mesh, o, shown) for shown in ("show_viewport", "show_render")} for o in objects]
+
+
+def _digest_of(mesh: bpy.types.Mesh) -> Any:  # noqa: ANN401  hashlib names no type
+    state = hashlib.sha256(vertices_of(mesh).tobytes())
+    state.update(triangles_of(mesh).tobytes())
+    return state
+
+
+def _digest_with_modifiers(mesh: Any, obj: bpy.types.Object, shown: str) -> str:  # noqa: ANN401
+    state = mesh.copy()
+    state.update(" ".join(m.type for m in obj.modifiers if getattr(m, shown) and not _moves_nothing(m)).encode())
     return state.hexdigest()
 
 

@@ -9,7 +9,8 @@ import numpy as np
 
 from ..errors import SkinError, core
 from ..identity import library_of
-from ..read.measured_geometry import Geometry, mesh_digest, read_geometry, unit_mm
+from ..read.file_skins import skins_of_file
+from ..read.measured_geometry import Geometry, mesh_digest, mesh_digests, read_geometry, unit_mm
 from ..read.measured_size import (
     MEASURED_BY,
     MEASURED_CONE,
@@ -53,13 +54,32 @@ def is_from_measurement(mesh: bpy.types.Mesh) -> bool:
     return mesh.get(MEASURED_GEOMETRY, GIVEN) != GIVEN
 
 
-def is_of_this_mesh(obj: bpy.types.Object) -> bool:
-    """Whether mesh and modifiers are those that were measured, but for a scale of the whole.
+def measured_as(obj: bpy.types.Object) -> bpy.types.Object | None:
+    """The skin with whose modifiers its mesh was measured: itself, else another with the same mesh.
 
-    Pose, shape keys and the settings of modifiers are not looked at: animation changes them.
+    None: mesh or modifiers are not those that were measured, but for a scale of the whole. Pose, shape keys and the
+    settings of modifiers are not looked at: animation changes them.
     """
     stored = obj.data.get(MEASURED_MESH)
-    return stored is None or stored == mesh_digest(obj) or (mesh_scale(obj.data) or 1.0) != 1.0
+    if stored is None or (mesh_scale(obj.data) or 1.0) != 1.0:
+        return obj
+    users = [obj, *sharing_skins(obj)]
+    return next((user for user, now in zip(users, mesh_digests(users), strict=True) if stored in now), None)
+
+
+def sharing_skins(obj: bpy.types.Object) -> list[bpy.types.Object]:
+    """The other skins with the same mesh, and so with the same thickness."""
+    if obj.data.users < 2:
+        return []
+    return [other for other in skins_of_file() if other.data == obj.data and other != obj]
+
+
+def user_that_fits(obj: bpy.types.Object) -> bpy.types.Object | None:
+    """Another skin with the same mesh by whose settings, in some scene of its own, that was measured."""
+    for other in sharing_skins(obj):
+        if not all(measured_otherwise(other, scene) for scene in other.users_scene):
+            return other
+    return None
 
 
 def measured_otherwise(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:

@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..commands.health import FREEZE_AGAIN, FREEZE_MORE, MEASURE_APPLIED
+from ..commands.health import BY_HAND, FREEZE_AGAIN, FREEZE_MORE, MEASURE_APPLIED
 from ..commands.material_health import CHOOSE_SHOWN_BY
 from ..identity import key_of
 from ..preferences import follows_lights
@@ -84,13 +84,13 @@ def _draw_faults(layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy
     box = layout.box()
     column = box.column(align=True)
     for fault in faults:
-        # Repair measures, but applies no modifier.
-        text = str(fault) if fault.remedy == MEASURE_APPLIED else fault.what
+        # What no button does; Repair measures, but applies no modifier.
+        text = str(fault) if fault.remedy in {*BY_HAND, MEASURE_APPLIED} else fault.what
         draw_wrapped(column, text, context, icon="INFO" if fault.is_hint else "ERROR")
     remedies = {fault.remedy for fault in faults if not fault.is_hint}
-    if remedies - {FREEZE_AGAIN, FREEZE_MORE}:
+    if remedies - {FREEZE_AGAIN, FREEZE_MORE} - BY_HAND:
         box.operator("skinglow.repair", text="Repair", icon="FILE_REFRESH")
-    elif remedies:
+    elif remedies & {FREEZE_AGAIN, FREEZE_MORE}:
         box.operator("skinglow.unfreeze", text="Unfreeze", icon="LIGHT_SUN")
     if any(fault.remedy == CHOOSE_SHOWN_BY for fault in faults):
         box.label(text="Light Shown By:")

@@ -65,7 +65,7 @@ def on_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     That reads Blender's report, which takes longer than all else of an idle edit, once.
     """
     if SESSION.thickness_faults and not follows_lights():
-        SESSION.note_reshaped(key_of(update.id) for update in depsgraph.updates if update.is_updated_geometry)
+        SESSION.note_reshaped(update.id for update in depsgraph.updates if update.is_updated_geometry)
 
 
 def register() -> None:
