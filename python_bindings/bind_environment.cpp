@@ -2,6 +2,7 @@
 #include <skinglow/environment.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/matrix.hpp>
 #include <span>
 #include <string>
@@ -17,21 +18,38 @@ using namespace skinglow;
 
 namespace {
 
-using Pixels = py::array_t<float, py::array::c_style | py::array::forcecast>;
+constexpr const char* allowed_radiance = "finite numbers of at most 1e30 W/(m^2 sr)";
+
+/// Names the entry of what is given, which the core knows as coefficients or pixels.
+void require_range(const numpy::Array& radiance, double largest, const char* allowed) {
+    const auto row = static_cast<std::size_t>(radiance.shape(radiance.ndim() - 1));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(radiance.size()); ++i) {
+        if (std::abs(radiance.data()[i]) <= largest) continue;
+        std::string at = std::to_string(i / row);
+        if (radiance.ndim() == 3) {
+            const auto width = static_cast<std::size_t>(radiance.shape(1));
+            at = std::to_string(i / row / width) + ", " + std::to_string(i / row % width);
+        }
+        refuse_argument("radiance[" + at + "]", to_text(radiance.data()[i]), allowed);
+    }
+}
 
 Environment make_environment(py::handle radiance) {
     const numpy::Array values = numpy::to_array(radiance, "radiance");
     if (values.ndim() == 1) return Environment(numpy::to_vec3(radiance, "radiance"));
     if (values.ndim() == 2 && values.shape(0) == 9 && values.shape(1) == 3) {
         std::array<glm::dvec3, 9> coefficients;
+        require_range(values, Environment::max_coefficient,
+                      "finite numbers of at most 4e30: no radiance of up to 1e30 W/(m^2 sr) has larger ones");
         const std::vector<glm::dvec3> rows = numpy::to_vec3s(radiance, "radiance");
         std::copy(rows.begin(), rows.end(), coefficients.begin());
         return Environment(coefficients);
     }
-    if (values.ndim() != 3 || values.shape(2) != 3) {
+    if (values.ndim() != 3 || values.shape(2) != 3 || values.size() == 0) {
         refuse_argument("radiance", "of shape " + numpy::shape_text(values),
-                        "shape (3,), (9, 3) or (height, width, 3)");
+                        "shape (3,), (9, 3) or (height, width, 3), with a pixel at least");
     }
+    require_range(values, max_radiance, allowed_radiance);
     const auto height = static_cast<std::size_t>(values.shape(0));
     const auto width = static_cast<std::size_t>(values.shape(1));
     const py::gil_scoped_release release;
@@ -53,7 +71,8 @@ py::array environment_irradiance(const Environment& self, py::handle normals,
     }));
 }
 
-Environment environment_of_image(const Pixels& pixels, const std::string& projection, bool bottom_first) {
+Environment environment_of_image(py::handle image_pixels, const std::string& projection, bool bottom_first) {
+    const numpy::FloatArray pixels = numpy::to_floats(image_pixels, "pixels");
     if (pixels.ndim() != 3) {
         refuse_argument("pixels", "of shape " + numpy::shape_text(pixels), "shape (height, width, channels)");
     }
@@ -86,15 +105,16 @@ void bind_environment(py::module_& m) {
         m, "Environment",
         R"(The world's light as nine spherical-harmonic coefficients (Ramamoorthi and Hanrahan 2001).
 
-radiance  (3,) constant, W/(m^2 sr), 0 or more; or (9, 3) coefficients, orthonormal, order l, m; or an equirectangular
-          image (height, width, 3), row 0 looking up to +z, columns as in Blender (the center looks along +x, a quarter
-          from the left along +y). Blender's own pixels start at the bottom: flip them.)")
+radiance  (3,) constant, W/(m^2 sr), 0 to 1e30; or (9, 3) coefficients, orthonormal, order l, m, of at most 4e30; or an
+          equirectangular image (height, width, 3), of at most 1e30, row 0 looking up to +z, columns as in Blender (the
+          center looks along +x, a quarter from the left along +y). Blender's own pixels start at the bottom: flip them.
+Raises ValueError naming the entry.)")
         .def(py::init(&make_environment), "radiance"_a)
         .def_static("from_image", &environment_of_image, "pixels"_a, py::kw_only(),
                     "projection"_a = "EQUIRECTANGULAR", "bottom_first"_a = false,
                     R"(From float32 pixels as they are, which are not copied: for large images.
 
-pixels        (height, width, channels), finite; R, G, B first, or gray where there are fewer than 3 channels
+pixels        (height, width, channels), of at most 1e30; R, G, B first, or gray where there are fewer than 3 channels
 projection    'EQUIRECTANGULAR', or 'MIRROR_BALL': the square picture of a mirrored ball seen along +y, z up
 bottom_first  whether the first row is the lowest, as in Blender's pixels. Raises ValueError naming what is wrong.)")
         .def(

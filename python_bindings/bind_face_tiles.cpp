@@ -18,8 +18,6 @@ using namespace skinglow;
 
 namespace {
 
-using Texels = py::array_t<float, py::array::c_style | py::array::forcecast>;
-
 /// (n,) whole numbers that 32 bits hold.
 std::vector<std::uint32_t> to_indices(py::handle value, const char* name) {
     using Numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
@@ -72,7 +70,7 @@ FaceTiles layout_of_arrays(py::handle vertices, py::handle face_sizes, py::handl
 TileTargets targets_of_arrays(py::handle vertices, py::handle triangles, py::handle texels,
                               std::size_t height, double unit_mm) {
     const TriangleMesh mesh = numpy::to_mesh(vertices, triangles);
-    const Texels rows = Texels::ensure(numpy::to_array(texels, "texels"));
+    const numpy::FloatArray rows = numpy::to_floats(texels, "texels");
     if (rows.ndim() != 3 || rows.shape(1) != 3 || rows.shape(2) != 3)
         refuse_argument("texels", "of shape " + numpy::shape_text(rows), "shape (m, 3, 3)");
     const std::span of_corners(reinterpret_cast<const glm::vec3*>(rows.data()),

@@ -52,6 +52,9 @@ void set_normals(PovrayMesh& mesh, py::handle value) {
     require_shape(array, "normals", by_corner || (array.ndim() == 2 && array.shape(1) == 3),
                   "shape (n, 3), one per vertex, or (m, 3, 3), three per triangle");
     const auto* rows = reinterpret_cast<const glm::dvec3*>(array.data());
+    // To the core none are no normals, which is for None to say.
+    if (array.size() == 0)
+        refuse_argument("normals", "empty", "one per vertex or three per triangle, or None");
     (by_corner ? mesh.corner_normals : mesh.vertex_normals).assign(rows, rows + array.size() / 3);
 }
 
@@ -124,7 +127,11 @@ std::map<std::string, std::string> povray_files_of_arrays(
     PovrayScene scene;
     scene.mesh.name = std::move(name);
     scene.mesh.geometry = numpy::to_mesh(vertices, triangles);
-    if (!lut_u.is_none()) scene.mesh.lut_u = to_doubles(lut_u, "lut_u");
+    if (!lut_u.is_none()) {
+        scene.mesh.lut_u = to_doubles(lut_u, "lut_u");
+        require_count("lut_u", scene.mesh.lut_u.size(), scene.mesh.geometry.vertices().size(),
+                      "one per vertex");
+    }
     scene.mesh.glow_uv = to_corner_uv(glow_uv, "glow_uv");
     for (const py::object& place : instances) scene.mesh.instances.push_back(to_mat4(place, "instances"));
     set_normals(scene.mesh, normals);
@@ -210,7 +217,7 @@ image                name of the lookup's EXR in the folder (POV-Ray reads it as
 lights               [Light]; those that are off are left out
 point, coefficients, blood_weight   of Eq. 1-3
 strength             radiance shown = strength * lookup
-normals              (n, 3) per vertex or (m, 3, 3) per corner; None: flat
+normals              (n, 3) per vertex or (m, 3, 3) per corner, of any length; None: flat
 surface_color | surface_image   matt surface under the glow, (3,) or a picture in the folder with surface_uv (m, 3, 2);
                      none: the glow alone. With a picture the scene is two renders, to be added:
                      `povray scene.ini Declare=Skinglow_Part=1` (surface) and `=2` (glow)

@@ -48,11 +48,14 @@ Shape make_shape(py::handle vertices, py::handle triangles, py::handle tissue, p
                                threads, tolerance};
     std::vector<glm::dvec3> positions;
     std::vector<glm::dvec3> facing;
-    if (!points.is_none()) positions = numpy::to_vec3s(points, "points");
-    if (!normals.is_none()) facing = numpy::to_vec3s(normals, "normals");
-    if (points.is_none() && !facing.empty())
-        refuse_argument("normals", "given without points", "normals only with points");
-    const ShapePoints where{positions, facing};
+    ShapePoints where;
+    if (!points.is_none()) where.points = positions = numpy::to_vec3s(points, "points");
+    if (!normals.is_none()) {
+        if (points.is_none()) refuse_argument("normals", "given without points", "normals only with points");
+        where.normals = facing = numpy::to_vec3s(normals, "normals");
+        // To the core none are a direction for each.
+        require_count("normals", facing.size(), positions.size(), "one per point");
+    }
     const bool has_medium = !absorption.is_none() || !reduced_scattering.is_none();
     if (!has_medium) {
         const Tissue skin = to_tissue(tissue);

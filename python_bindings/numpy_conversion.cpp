@@ -1,6 +1,8 @@
 #include "numpy_conversion.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -21,17 +23,8 @@ std::pair<Value*, py::capsule> keep(std::vector<Value>&& values) {
     return {data, owner};
 }
 
-}  // namespace
-
-std::string shape_text(const py::array& array) {
-    std::string text = "(";
-    for (py::ssize_t i = 0; i < array.ndim(); ++i) {
-        text += std::to_string(array.shape(i)) + (array.ndim() == 1 ? "," : i + 1 < array.ndim() ? ", " : "");
-    }
-    return text + ")";
-}
-
-Array to_array(py::handle value, std::string_view name) {
+/// Any array-like of real numbers as an array of its own type; throws ValueError naming the argument on anything else.
+py::array real_numbers(py::handle value, std::string_view name) {
     const py::array given = py::array::ensure(value);
     if (!given) {
         PyErr_Clear();
@@ -47,7 +40,45 @@ Array to_array(py::handle value, std::string_view name) {
         refuse_argument(name, shown + ", of type " + py::str(given.dtype()).cast<std::string>(),
                         "real numbers (a boolean, integer or float type)");
     }
-    return Array::check_(given) ? py::reinterpret_borrow<Array>(given) : Array::ensure(given);
+    return given;
+}
+
+}  // namespace
+
+std::string shape_text(const py::array& array) {
+    std::string text = "(";
+    for (py::ssize_t i = 0; i < array.ndim(); ++i) {
+        text += std::to_string(array.shape(i)) + (array.ndim() == 1 ? "," : i + 1 < array.ndim() ? ", " : "");
+    }
+    return text + ")";
+}
+
+Array to_array(py::handle value, std::string_view name) {
+    const py::array given = real_numbers(value, name);
+    if (Array::check_(given)) return py::reinterpret_borrow<Array>(given);
+    Array result = Array::ensure(given);
+    if (!result) {
+        // A long double beyond doubles is a warning of numpy's, which may be an error.
+        PyErr_Clear();
+        refuse_argument(name, "of type " + py::str(given.dtype()).cast<std::string>(),
+                        "numbers that a double holds");
+    }
+    return result;
+}
+
+FloatArray to_floats(py::handle value, std::string_view name) {
+    const py::array given = real_numbers(value, name);
+    if (FloatArray::check_(given)) return py::reinterpret_borrow<FloatArray>(given);
+    // Not by numpy, which warns of what is beyond single precision.
+    const Array doubles = to_array(given, name);
+    FloatArray result(std::vector<py::ssize_t>(doubles.shape(), doubles.shape() + doubles.ndim()));
+    std::transform(doubles.data(), doubles.data() + doubles.size(), result.mutable_data(), [](double number) {
+        constexpr double largest = std::numeric_limits<float>::max();
+        constexpr float infinite = std::numeric_limits<float>::infinity();
+        if (std::abs(number) > largest) return number > 0 ? infinite : -infinite;
+        return static_cast<float>(number);
+    });
+    return result;
 }
 
 glm::dvec3 to_vec3(py::handle value, std::string_view name) {

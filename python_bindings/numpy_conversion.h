@@ -24,6 +24,11 @@ std::string shape_text(const pybind11::array& array);
 /// else, text and complex numbers included.
 Array to_array(pybind11::handle value, std::string_view name);
 
+using FloatArray = pybind11::array_t<float, pybind11::array::c_style>;
+
+/// The same in single precision: an array of it as it is, not copied. What is beyond it becomes infinite.
+FloatArray to_floats(pybind11::handle value, std::string_view name);
+
 /// Three numbers.
 glm::dvec3 to_vec3(pybind11::handle value, std::string_view name);
 

@@ -5,11 +5,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from skinglow._numbers import fixed, real_numbers
+
 if TYPE_CHECKING:
     from skinglow._core import Light
 
 #: Rec.709 luminance (ITU-R BT.709-6, item 3.2 of part 1).
-LUMINANCE = np.array((0.2126, 0.7152, 0.0722))
+LUMINANCE = fixed(np.array((0.2126, 0.7152, 0.0722)))
 #: Seed of `stratified_indices`: any, but the same each time.
 SEED = 1
 #: Relative difference up to which distances have changed by one factor: single precision over the size of a mesh.
@@ -18,12 +20,12 @@ SAME_FACTOR = 1e-4
 
 def luminance(colors: ArrayLike) -> NDArray[np.float64]:
     """Luminance of linear Rec.709 colors (..., 3), (...), at least 0 (ITU-R BT.709-6)."""
-    return np.maximum(np.asarray(colors, np.float64) @ LUMINANCE, 0.0)
+    return np.maximum(real_numbers("colors", colors) @ LUMINANCE, 0.0)
 
 
 def diffuse_radiance(exitance: ArrayLike) -> NDArray[np.float64]:
     """Radiance, W/(m^2 sr), of light that leaves a surface diffusely (Lambert's cosine law): exitance, W/m^2, / pi."""
-    return np.asarray(exitance, np.float64) / np.pi
+    return real_numbers("exitance", exitance) / np.pi
 
 
 def visible_entries(table: ArrayLike, threshold: float = 1.0 / 255.0) -> int:
@@ -31,7 +33,7 @@ def visible_entries(table: ArrayLike, threshold: float = 1.0 / 255.0) -> int:
 
     threshold  the brightest channel from which an entry is visible, as a fraction of the table's brightest
     """
-    brightest = np.asarray(table, np.float64).max(axis=1)
+    brightest = real_numbers("table", table).max(axis=1)
     visible = np.flatnonzero(brightest > threshold * max(brightest.max(), 0.0))
     return int(visible[-1]) + 1 if len(visible) else 1
 
@@ -54,7 +56,8 @@ def uniform_scale(before: ArrayLike, after: ArrayLike) -> float | None:
     before, after  (n, 3)
     Returns None if no one factor explains the distances between successive points, or if there are none.
     """
-    then, now = (np.linalg.norm(np.diff(np.asarray(points, np.float64), axis=0), axis=1) for points in (before, after))
+    both = real_numbers("before", before), real_numbers("after", after)
+    then, now = (np.linalg.norm(np.diff(points, axis=0), axis=1) for points in both)
     apart = then > 0.0
     if not apart.any():
         return None
@@ -71,12 +74,22 @@ def light_rotation(light: "Light") -> NDArray[np.float64]:
     z_axis = -np.asarray(light.direction, np.float64)
     if light.kind == "POINT" or not z_axis.any():
         return np.eye(3)
-    z_axis /= np.linalg.norm(z_axis)
+    z_axis = _unit(z_axis)
     wanted = light.tangent if light.kind == "AREA" else (1.0, 0.0, 0.0)
     # A tangent along the direction says nothing: take the axis that is farthest from it.
     for x_axis in (np.asarray(wanted, np.float64), np.eye(3)[np.argmin(np.abs(z_axis))]):
+        x_axis = _unit(x_axis)
         x_axis = x_axis - (x_axis @ z_axis) * z_axis
         if np.linalg.norm(x_axis) > 1e-6:
             break
     x_axis /= np.linalg.norm(x_axis)
     return np.column_stack((x_axis, np.cross(z_axis, x_axis), z_axis))
+
+
+def _unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The vector at length 1, also where its square would over- or underflow; 0 stays."""
+    largest = np.abs(vector).max()
+    if largest == 0.0:
+        return vector
+    scaled = vector / largest
+    return scaled / np.linalg.norm(scaled)

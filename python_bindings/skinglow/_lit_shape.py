@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from skinglow._core import Tissue
+from skinglow._numbers import fixed
 
 __all__ = ["LitShape"]
 
 
 class LitShape:
-    """A body under lights; made by Shape.light."""
+    """A body under lights; made by Shape.light. Its arrays are kept, and read-only: copy what is to be changed."""
 
     def __init__(self, lit: Any) -> None:  # of the compiled module
         self._lit = lit
@@ -23,7 +24,7 @@ class LitShape:
     @cached_property
     def exitance(self) -> NDArray[np.float64]:
         """(n, 3): what leaves the flesh at each point, W/m^2, 0 or more; not what the surface throws back."""
-        return self._lit.exitance
+        return fixed(self._lit.exitance)
 
     @cached_property
     def transmitted(self) -> NDArray[np.float64]:
@@ -31,7 +32,7 @@ class LitShape:
 
         To add to skin that is shaded as lit from its own side.
         """
-        return self._lit.transmitted
+        return fixed(self._lit.transmitted)
 
     @cached_property
     def error(self) -> NDArray[np.float64]:
@@ -40,17 +41,17 @@ class LitShape:
         From how far light has fallen, the medium and the cells; above the errors measured in docs/shape.md, up to three
         times. Surface and medium are taken as they are given.
         """
-        return self._lit.error()
+        return fixed(self._lit.error())
 
     @cached_property
     def irradiance(self) -> NDArray[np.float64]:
         """(v, 3): at the vertices, of lights and world, shadows included; 0 where it does not matter."""
-        return self._lit.irradiance
+        return fixed(self._lit.irradiance)
 
     @cached_property
     def per_light(self) -> NDArray[np.float64]:
         """(k, n, 3): exitance by light alone. Solved when it is first asked for, each light by itself."""
-        return self._lit.per_light()
+        return fixed(self._lit.per_light())
 
     def recolor(
         self, colors: ArrayLike, *, transmitted: bool = False, progress: Callable[[float], bool] | None = None

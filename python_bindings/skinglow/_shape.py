@@ -48,7 +48,8 @@ class Shape:
                         flesh that is lit from behind (RMS over mean, all channels) is at most this; e.g. 0.15
     max_thickness_mm    flesh that is thicker has the exitance of a half-space
     points, normals     (n, 3): where exitance is asked, each at the nearest point of the triangles that face along its
-                        normal. None: at the vertices
+                        normal, finite and of any length; of any triangles where it is 0, or without normals. None: at
+                        the vertices; an empty array is no points
     threads             0: one for each processor. The result does not depend on it
     progress            called on this thread with the fraction done, ascending to 1; returns whether to go on. If not,
                         RuntimeError (skinglow._rays.ShapeCancelled) is raised; what it raises is raised. All long calls

@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from skinglow._numbers import fixed, real_numbers
+
 __all__ = [
     "ThicknessImage",
     "ThicknessSummary",
@@ -18,11 +20,13 @@ __all__ = [
 ]
 
 #: Colors of `thickness_colors` from thin to thick, 8-bit sRGB, at equal steps, each darker than the one before.
-RAMP = np.array(
-    ((255, 246, 199), (255, 205, 105), (249, 152, 66), (222, 91, 73), (168, 48, 92), (98, 30, 95), (31, 12, 56))
+RAMP = fixed(
+    np.array(
+        ((255, 246, 199), (255, 205, 105), (249, 152, 66), (222, 91, 73), (168, 48, 92), (98, 30, 95), (31, 12, 56))
+    )
 )
 #: Color where there is no thickness.
-NO_THICKNESS = np.array((0.35, 0.45, 0.5))
+NO_THICKNESS = fixed(np.array((0.35, 0.45, 0.5)))
 #: Texels that are computed at a time.
 BLOCK = 1 << 20
 
@@ -44,8 +48,7 @@ def thickness_summary(thickness_mm: ArrayLike, limit_mm: float, bins: int = 32) 
     bins      of the histogram, 1 or more
     """
     values = _finite("thickness_mm", thickness_mm, 1)
-    if not (np.isfinite(limit_mm) and limit_mm > 0.0):
-        raise ValueError(f"limit_mm = {limit_mm!r} is not allowed: a finite number above 0")
+    _positive("limit_mm", limit_mm)
     if bins < 1:
         raise ValueError(f"bins = {bins!r} is not allowed: 1 or more")
     if not len(values):
@@ -57,8 +60,14 @@ def thickness_summary(thickness_mm: ArrayLike, limit_mm: float, bins: int = 32) 
 
 
 def thickness_colors(thickness_mm: ArrayLike, max_mm: float) -> NDArray[np.float64]:
-    """Colors (..., 3) of a heat map, sRGB 0 to 1: bright where thin, dark from max_mm on, gray where below 0."""
-    values = np.asarray(thickness_mm, np.float64)
+    """Colors (..., 3) of a heat map, sRGB 0 to 1: bright where thin, dark from max_mm on, gray where below 0.
+
+    thickness_mm  (...), mm
+    max_mm        finite, above 0
+    Raises ValueError naming the argument.
+    """
+    _positive("max_mm", max_mm)
+    values = real_numbers("thickness_mm", thickness_mm)
     steps = np.clip(values / max_mm, 0.0, 1.0) * (len(RAMP) - 1)
     colors = np.stack([np.interp(steps, np.arange(len(RAMP)), RAMP[:, i] / 255.0) for i in range(3)], axis=-1)
     return np.where(values[..., None] < 0.0, NO_THICKNESS, colors)
@@ -188,8 +197,13 @@ def gray_png(values: ArrayLike, bits: int = 16) -> bytes:
     return b"\x89PNG\r\n\x1a\n" + b"".join(parts)
 
 
+def _positive(name: str, number: float) -> None:
+    if not (np.isfinite(number) and number > 0.0):
+        raise ValueError(f"{name} = {number!r} is not allowed: a finite number above 0")
+
+
 def _finite(name: str, given: ArrayLike, dimensions: int) -> NDArray[np.float64]:
-    values = np.asarray(given, np.float64)
+    values = real_numbers(name, given)
     if values.ndim != dimensions:
         raise ValueError(f"{name} of shape {values.shape} is not allowed: {dimensions} dimensions")
     if not np.isfinite(values).all():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from skinglow._numbers import real_numbers
 from skinglow._shape import Shape
 
 __all__ = ["near_thin_skin"]
@@ -30,11 +31,12 @@ def near_thin_skin(
 
     Raises ValueError naming the argument, the value and what is allowed.
     """
-    thickness = np.asarray(thickness_mm, np.float64)
-    count = len(np.asarray(vertices))
+    thickness = real_numbers("thickness_mm", thickness_mm)
+    points = real_numbers("vertices", vertices)
+    count = len(points) if points.ndim else 0
     if thickness.shape != (count,):
         raise ValueError(f"thickness_mm has shape {thickness.shape}; allowed: ({count},), one per vertex")
-    shape = Shape(vertices, triangles, absorption=_ABSORPTION, reduced_scattering=_REDUCED_SCATTERING, unit_mm=unit_mm)
+    shape = Shape(points, triangles, absorption=_ABSORPTION, reduced_scattering=_REDUCED_SCATTERING, unit_mm=unit_mm)
     thin = thickness <= _MAX_THICKNESS_MM
     near = np.zeros(count, bool)
     for part in shape.parts:

@@ -177,6 +177,16 @@ def test_mirror_ball_of_one_color_and_what_lies_outside_it():
     np.testing.assert_allclose(ball.coefficients[1:], 0, atol=0.05)
 
 
+@pytest.mark.parametrize("radiance", [(1e30,) * 3, np.full((4, 8, 3), 1e30), np.full((9, 3), -4e30)])
+def test_the_brightest_worlds_have_irradiance(radiance) -> None:
+    world = sg.Environment(radiance)
+    turned = world.rotated(np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0])
+    for each in (world, turned, sg.Environment(sg.Environment((1e30,) * 3).coefficients)):
+        normals = np.random.default_rng(1).normal(size=(9, 3))
+        for found in (each.mean_irradiance, each.mean_irradiance_error, each.irradiance(normals)):
+            assert np.isfinite(found).all() and (found >= 0.0).all()
+
+
 @pytest.mark.parametrize(
     ("call", "message"),
     [
@@ -188,6 +198,18 @@ def test_mirror_ball_of_one_color_and_what_lies_outside_it():
         (lambda: sg.surface_irradiance([], np.zeros((2, 3)), np.zeros((1, 3))), "normals is 1"),
         (lambda: sg.surface_irradiance([], np.zeros(3), np.zeros(3)), r"shape \(n, 3\)"),
         (lambda: sg.Environment(np.zeros((2, 2))), r"\(9, 3\)"),
+        (lambda: sg.Environment(np.zeros((0, 2, 3))), "radiance is of shape.*pixel at least"),
+        (lambda: sg.Environment((1, -1, 1)), "radiance is .*0 or more"),
+        (lambda: sg.Environment((1, 1e31, 1)), "radiance is .*0 to 1e30"),
+        (lambda: sg.Environment((1, np.inf, 1)), "radiance is .*three finite"),
+        (lambda: sg.Environment(np.full((9, 3), 1e308)), r"radiance\[0\] is 1e.308.*at most 4e30"),
+        (lambda: sg.Environment(np.full((9, 3), np.nan)), r"radiance\[0\] is nan"),
+        (lambda: sg.Environment(np.diag(np.full(9, -1e31))[:, :3]), r"radiance\[0\] is -1e.31"),
+        (lambda: sg.Environment(np.full((2, 2, 3), np.nan)), r"radiance\[0, 0\] is nan.*at most 1e30"),
+        (lambda: sg.Environment(np.ones((2, 2, 3)) * [[[1], [1]], [[1], [1e31]]]), r"radiance\[1, 1\] is 1e.31"),
+        (lambda: sg.Environment.from_image(np.full((2, 2, 3), 2e30)), "pixels is .*at most 1e30"),
+        (lambda: sg.Environment.from_image(np.full((2, 2, 3), 1e39)), "pixels is not all finite"),
+        (lambda: sg.Environment.from_image(np.full((8, 8, 1), 2e30), projection="MIRROR_BALL"), "pixels is .*1e30"),
         (lambda: sg.Environment.from_image(np.zeros((2, 2))), r"shape \(height, width, channels\)"),
         (lambda: sg.Environment.from_image(np.zeros((0, 2, 3))), "at least 1"),
         (lambda: sg.Environment.from_image(np.full((1, 1, 3), np.nan)), "not all finite"),

@@ -172,3 +172,13 @@ def test_a_light_of_no_power_changes_nothing(change):
     lit = shape.light([*four, dark])
     np.testing.assert_array_equal(lit.exitance, shape.light(four).exitance)
     np.testing.assert_array_equal(lit.per_light[4], 0.0)
+
+
+@pytest.mark.parametrize("name", ["exitance", "transmitted", "error", "irradiance", "per_light"])
+def test_what_is_kept_cannot_be_written(lobe, name):
+    lit = shape(lobe).light(LIGHTS)
+    kept = getattr(lit, name)
+    before = kept.copy()
+    with pytest.raises(ValueError, match="read-only"):
+        kept /= np.pi
+    np.testing.assert_array_equal(getattr(lit, name), before)

@@ -35,3 +35,28 @@ def test_rounding_of_vertices_changes_nothing_at_targets_of_tiles() -> None:
         body = sg.Shape(moved, triangles, cell_mm=1.0, points=targets.points, normals=targets.normals)
         found.append(body.light(light).exitance)
     assert np.sqrt(((found[0] - found[1]) ** 2).mean()) < 5e-3 * found[0].mean()
+
+
+def test_no_points_are_no_points() -> None:
+    body = bodies.lobe(levels=2)
+    lights = [sg.Light("SUN", direction=(0.2, 0.1, 1.0), power=3.0), sg.Light(position=(0, 0, 30))]
+    for none in ({}, {"normals": np.empty((0, 3))}):
+        shape = sg.Shape(*body, points=np.empty((0, 3)), **none)
+        lit = shape.light(lights, sg.Environment((1.0, 1.0, 1.0)))
+        for found in (
+            shape.points,
+            shape.exitance(np.ones(len(body[0]))),
+            shape.exitance_error(np.ones(len(body[0]))),
+            lit.exitance,
+            lit.transmitted,
+            lit.error,
+            lit.recolor(np.ones((2, 3))),
+            lit.recolor(np.ones((2, 3)), transmitted=True),
+            lit.with_tissue(sg.Tissue(blood_fraction=0.01)).exitance,
+            shape.light(lights[:1], previous=lit).exitance,
+        ):
+            assert found.shape == (0, 3)
+        assert lit.per_light.shape == (2, 0, 3)
+        assert lit.irradiance.shape == body[0].shape
+        assert shape.parts == [] and shape.report["points"] == 0
+        np.testing.assert_array_equal(lit.report["error"], 0.0)

@@ -59,4 +59,6 @@ def _is_coded(image: bpy.types.Image) -> bool:
 @lru_cache(maxsize=1)
 def _linear_of_bytes() -> np.ndarray:
     grays = (Color((i / 255.0,) * 3).from_srgb_to_scene_linear() for i in range(256))
-    return np.array([gray.from_scene_linear_to_rec709_linear().g for gray in grays], np.float32)
+    table = np.array([gray.from_scene_linear_to_rec709_linear().g for gray in grays], np.float32)
+    table.setflags(write=False)
+    return table

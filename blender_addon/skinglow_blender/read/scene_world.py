@@ -16,6 +16,9 @@ from .world_image import environment_of_image
 from .world_mapping import IDENTITY
 from .world_nodes import Background, read_world_nodes
 
+#: W/(m^2 sr). An Environment takes no more, and no picture tells it from what is brighter.
+BRIGHTEST = 1e30
+
 
 @dataclass(frozen=True)
 class World:
@@ -35,7 +38,7 @@ class World:
                 total += _coefficients(background)
             except SkinError:
                 continue
-        return core().Environment(total)
+        return core().Environment(np.clip(total, -BRIGHTEST, BRIGHTEST))
 
     @cached_property
     def irradiance(self) -> tuple[float, float, float]:

@@ -57,4 +57,5 @@ def _from_rec709(_space: tuple) -> np.ndarray | None:
 def _matrix(columns: list[Color]) -> np.ndarray | None:
     """Blender's own conversion as a matrix; None for the identity, so that no digit is lost to rounding."""
     matrix = np.array(columns, np.float64).T
+    matrix.setflags(write=False)
     return None if np.allclose(matrix, np.eye(3), rtol=0.0, atol=SAME) else matrix

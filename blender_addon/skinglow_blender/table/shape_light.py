@@ -70,7 +70,9 @@ class Tiles:
     @cached_property
     def thickness_mm(self) -> np.ndarray:
         """Of the targets, (k,)."""
-        return self.targets.at_vertices(self._thickness_mm[:, None])[:, 0]
+        found = self.targets.at_vertices(self._thickness_mm[:, None])[:, 0]
+        found.setflags(write=False)
+        return found
 
     def draw(self, radiance: np.ndarray, pixels: np.ndarray, *, alpha: bool = True) -> None:
         """Writes a radiance at the targets (k, 3) into an image (rows, width, 4), with the thickness in mm as alpha.

@@ -16,9 +16,13 @@
 /// @endcode
 namespace skinglow {
 
+/// The brightest radiance that an environment takes, W/(m^2 sr): with it no sum of a picture is beyond single
+/// precision.
+constexpr double max_radiance = 1e30;
+
 /// A view of an image of radiance as a host stores it, so that a large one need not be copied.
 struct RadianceImage {
-    std::span<const float> values;  ///< width * height * channels, row by row, finite
+    std::span<const float> values;  ///< width * height * channels, row by row, of at most max_radiance
     std::size_t width = 0;
     std::size_t height = 0;
     std::size_t channels = 3;  ///< 3 or more: R, G, B and what is not read; 1 or 2: gray and what is not read
@@ -31,15 +35,18 @@ struct RadianceImage {
 /// yz, 3z^2 - 1, xz, x^2 - y^2). Orthonormal.
 class Environment {
   public:
-    /// @param radiance  from every direction, W/(m^2 sr), finite, 0 or more
+    /// No coefficient of radiance up to max_radiance is larger: sqrt(4 pi) times that, rounded up.
+    static constexpr double max_coefficient = 4 * max_radiance;
+
+    /// @param radiance  from every direction, W/(m^2 sr), 0 to max_radiance
     explicit Environment(const glm::dvec3& radiance);
 
-    /// @param coefficients  of the radiance, finite
+    /// @param coefficients  of the radiance, of at most max_coefficient
     explicit Environment(const std::array<glm::dvec3, 9>& coefficients);
 
     /// From an equirectangular image of radiance, as image files have it: row 0 looks up (+z), the last row
     /// down (Blender's `pixels` start at the bottom: flip them); columns run as `direction` says.
-    /// @param pixels  row by row, finite
+    /// @param pixels  row by row, of at most max_radiance
     /// @param width   pixels in a row, at least 1
     /// @param height  rows, at least 1
     /// @throws std::invalid_argument naming what is wrong

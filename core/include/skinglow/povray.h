@@ -43,8 +43,8 @@ struct PovrayMesh {
     /// Of PovrayGlow::texels, in place of lut_u: coordinates in the image, three per triangle, v up. Between
     /// the centers of texels POV-Ray interpolates linearly in u and in v. Finite.
     std::vector<glm::dvec2> glow_uv;
-    /// Smooth shading: one normal per vertex, or three per triangle, not both; none: flat. Finite; a normal
-    /// of length 0, as hosts give at triangles without area, becomes +z. Written only where the scene has a
+    /// Smooth shading: one normal per vertex, or three per triangle, not both; none: flat. Finite, of any length; one
+    /// of 0, as hosts give at triangles without area, becomes +z. Written only where the scene has a
     /// surface: glow alone does not need them.
     std::vector<glm::dvec3> vertex_normals;
     std::vector<glm::dvec3> corner_normals;

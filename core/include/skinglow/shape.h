@@ -12,6 +12,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string_view>
@@ -67,8 +68,10 @@ struct ShapeOptions {
 
 /// Points on a surface; each counts for the nearest point of the triangles that face along its normal.
 struct ShapePoints {
-    std::span<const glm::dvec3> points;  ///< units of the mesh, finite; empty: the vertices of the mesh
-    /// One each, finite, 0: any; empty: all 0. Up to 60 degrees from the triangle's it is the surface's.
+    /// Units of the mesh, finite; none: the vertices of the mesh. An empty list is no points at all.
+    std::optional<std::span<const glm::dvec3>> points;
+    /// One each, finite, of any length, 0: any; empty: all 0. Up to 60 degrees from the triangle's it is the
+    /// surface's.
     std::span<const glm::dvec3> normals = {};
 };
 

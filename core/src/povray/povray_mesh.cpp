@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <glm/matrix.hpp>
 
+#include "geometry/vector.h"
 #include "geometry/weld.h"
 #include "numerics/argument_check.h"
 #include "povray/povray_parts.h"
@@ -29,6 +31,14 @@ void add_vectors(SdlText& text, std::string_view keyword, std::span<const std::u
     text.add("  ", keyword, " { ", entries.size(), ",");
     for (std::size_t i = 0; i < entries.size(); ++i) text.add_item(i, 4, value_at(entries[i]));
     text.add("\n  }\n");
+}
+
+/// POV-Ray takes a normal shorter than 1e-10 for none, and of a very long one the square is infinite.
+glm::dvec3 written_normal(const glm::dvec3& normal) {
+    if (normal == glm::dvec3(0.0)) return {0.0, 0.0, 1.0};
+    // A host's, of single precision, stay as they are.
+    constexpr double same = 1e-6;
+    return std::abs(length(normal) - 1.0) < same ? normal : unit(normal);
 }
 
 template <typename IndexOfCorner>
@@ -108,9 +118,7 @@ std::string povray_mesh_text(const PovrayScene& scene) {
 
     const std::span<const glm::dvec3> normals =
         mesh.vertex_normals.empty() ? mesh.corner_normals : mesh.vertex_normals;
-    const auto normal_at = [&](std::uint32_t i) {
-        return normals[i] == glm::dvec3(0.0) ? glm::dvec3(0.0, 0.0, 1.0) : normals[i];
-    };
+    const auto normal_at = [&](std::uint32_t i) { return written_normal(normals[i]); };
     const bool smooth = scene.surface && !normals.empty();
     const bool by_corner = smooth && mesh.vertex_normals.empty();
     const Weld corner_normals = by_corner ? weld(normals) : Weld{};

@@ -16,13 +16,31 @@ using std::numbers::pi;
 
 }  // namespace
 
+std::array<glm::dvec3, 9> detail::irradiance_polynomial(const std::array<glm::dvec3, 9>& radiance,
+                                                        const AngularWeight* angular_weight) {
+    // What the cosine keeps of each band (Ramamoorthi and Hanrahan 2001, Eq. 8).
+    const std::array<glm::dvec3, 3> plain = {glm::dvec3(pi), glm::dvec3(2 * pi / 3), glm::dvec3(pi / 4)};
+    const std::array<glm::dvec3, 3>& kept =
+        angular_weight == nullptr ? plain : angular_weight->band_factors();
+    std::array<glm::dvec3, 9> polynomial{};
+    for (std::size_t i = 0; i < 9; ++i) {
+        const std::size_t band = i == 0 ? 0 : (i < 4 ? 1 : 2);
+        polynomial[i] = kept[band] * radiance[i] * harmonic_scales[i];
+    }
+    return polynomial;
+}
+
 Environment::Environment(const glm::dvec3& radiance) {
-    coefficients_[0] = require_not_negative("radiance", radiance) * std::sqrt(4 * pi);
+    require_not_negative("radiance", radiance);
+    require("radiance", radiance, max_abs(radiance) <= max_radiance, "three numbers of 0 to 1e30 W/(m^2 sr)");
+    coefficients_[0] = radiance * std::sqrt(4 * pi);
 }
 
 Environment::Environment(const std::array<glm::dvec3, 9>& coefficients) : coefficients_(coefficients) {
     for (std::size_t i = 0; i < coefficients.size(); ++i) {
         require_finite(entry_name("coefficients", i), coefficients[i]);
+        require(entry_name("coefficients", i), coefficients[i], max_abs(coefficients[i]) <= max_coefficient,
+                "three numbers of at most 4e30: no radiance of up to 1e30 W/(m^2 sr) has larger ones");
     }
 }
 
@@ -38,8 +56,9 @@ Environment Environment::rotated(const glm::dmat3& rotation) const {
         refuse_argument("rotation", to_text(rotation[0]) + to_text(rotation[1]) + to_text(rotation[2]),
                         "an orthogonal matrix, to 1e-5");
     }
-    std::array<glm::dvec3, 9> turned{};
-    turned[0] = coefficients_[0];
+    // Not checked again: coefficients at the end of what is allowed may turn into larger ones.
+    Environment result = *this;
+    std::array<glm::dvec3, 9>& turned = result.coefficients_;
     for (int channel = 0; channel < 3; ++channel) {
         const auto at = [&](std::size_t i) { return coefficients_[i][channel]; };
         // Band 1 is a vector, band 2 a quadratic form without trace, d^T Q d: both turn as such, exactly.
@@ -59,20 +78,11 @@ Environment Environment::rotated(const glm::dmat3& rotation) const {
         turned[7][channel] = 2 * q[2][0];
         turned[8][channel] = q[0][0] - q[1][1];
     }
-    return Environment(turned);
+    return result;
 }
 
 std::array<glm::dvec3, 9> Environment::irradiance_polynomial(const AngularWeight* angular_weight) const {
-    // What the cosine keeps of each band (Ramamoorthi and Hanrahan 2001, Eq. 8).
-    const std::array<glm::dvec3, 3> plain = {glm::dvec3(pi), glm::dvec3(2 * pi / 3), glm::dvec3(pi / 4)};
-    const std::array<glm::dvec3, 3>& kept =
-        angular_weight == nullptr ? plain : angular_weight->band_factors();
-    std::array<glm::dvec3, 9> polynomial{};
-    for (std::size_t i = 0; i < 9; ++i) {
-        const std::size_t band = i == 0 ? 0 : (i < 4 ? 1 : 2);
-        polynomial[i] = kept[band] * coefficients_[i] * harmonic_scales[i];
-    }
-    return polynomial;
+    return detail::irradiance_polynomial(coefficients_, angular_weight);
 }
 
 glm::dvec3 Environment::irradiance(const glm::dvec3& normal, const AngularWeight* angular_weight) const {

@@ -1,10 +1,12 @@
 #include <skinglow/environment.h>
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "geometry/vector.h"
 #include "numerics/argument_check.h"
 #include "radiometry/spherical_harmonics.h"
 
@@ -58,11 +60,13 @@ void require_size(std::string_view name, std::size_t found, std::size_t width, s
                         std::to_string(height) + " by " + std::to_string(channels) + ")");
 }
 
-Environment finite_environment(const Coefficients& sum) {
+/// @param largest  component of any pixel
+Environment finite_environment(const Coefficients& sum, const glm::dvec3& largest) {
+    constexpr const char* allowed = "finite radiance of at most 1e30 W/(m^2 sr)";
     for (const glm::dvec3& each : sum) {
-        if (!std::isfinite(each.r + each.g + each.b))
-            refuse_argument("pixels", "not all finite", "finite radiance");
+        if (!is_finite(each)) refuse_argument("pixels", "not all finite", allowed);
     }
+    if (!(max_abs(largest) <= max_radiance)) refuse_argument("pixels", "up to " + to_text(largest), allowed);
     return Environment(sum);
 }
 
@@ -71,10 +75,12 @@ template <class Pixel>
 Environment integrate_equirectangular(std::size_t width, std::size_t height, const Pixel& pixel) {
     const std::vector<std::array<double, 5>> columns = column_integrals(width);
     Coefficients sum{};
+    glm::dvec3 largest(0.0);
     for (std::size_t row = 0; row < height; ++row) {
         std::array<glm::dvec3, 5> along{};
         for (std::size_t c = 0; c < width; ++c) {
             const glm::dvec3 radiance = pixel(row, c);
+            largest = glm::max(largest, glm::abs(radiance));
             for (std::size_t k = 0; k < along.size(); ++k) along[k] += radiance * columns[c][k];
         }
         const auto& [one, cosine, sine, cosine2, sine2] = along;
@@ -91,7 +97,7 @@ Environment integrate_equirectangular(std::size_t width, std::size_t height, con
         sum[8] += cosine2 * theta.ss;
     }
     for (std::size_t i = 0; i < 9; ++i) sum[i] *= harmonic_scales[i];
-    return finite_environment(sum);
+    return finite_environment(sum, largest);
 }
 
 /// Reads a view from the top row down, whichever row it begins with.
@@ -126,6 +132,7 @@ Environment Environment::from_equirectangular(const RadianceImage& image) {
 Environment Environment::from_mirror_ball(const RadianceImage& image) {
     const PixelReader pixel(image);
     Coefficients sum{};
+    glm::dvec3 largest(0.0);
     std::size_t count = 0;
     for (std::size_t row = 0; row < image.height; ++row) {
         const double z = 1 - 2 * (static_cast<double>(row) + 0.5) / static_cast<double>(image.height);
@@ -138,12 +145,13 @@ Environment Environment::from_mirror_ball(const RadianceImage& image) {
             const double y = -std::sqrt(squared);
             const std::array<double, 9> basis = spherical_harmonics({-2 * y * x, 1 - 2 * y * y, -2 * y * z});
             const glm::dvec3 radiance = pixel(row, c);
+            largest = glm::max(largest, glm::abs(radiance));
             for (std::size_t i = 0; i < 9; ++i) sum[i] += radiance * basis[i];
             ++count;
         }
     }
     for (glm::dvec3& each : sum) each *= 4 * pi / static_cast<double>(count);
-    return finite_environment(sum);
+    return finite_environment(sum, largest);
 }
 
 }  // namespace skinglow

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <skinglow/angular_weight.h>
+
 #include <array>
 #include <glm/vec3.hpp>
 
@@ -32,5 +34,10 @@ constexpr std::array<double, 9> spherical_harmonics(const glm::dvec3& d) {
     for (std::size_t i = 0; i < 9; ++i) values[i] *= harmonic_scales[i];
     return values;
 }
+
+/// Irradiance, before it is clamped at 0, of radiance by its harmonics: coefficients of the monomials of the normal.
+/// @param angular_weight  none: every angle enters alike
+std::array<glm::dvec3, 9> irradiance_polynomial(const std::array<glm::dvec3, 9>& radiance,
+                                                const AngularWeight* angular_weight);
 
 }  // namespace skinglow::detail

@@ -196,7 +196,8 @@ SurfaceLighting::SurfaceLighting(const PreparedRig& rig, const Box& box,
         for (std::size_t i = 0; i < 9; ++i) harmonics[i] += facing * basis[i];
     }
     std::sort(far_lights_.begin(), far_lights_.end());
-    polynomial_ = Environment(harmonics).irradiance_polynomial(options.angular_weight);
+    for (const glm::dvec3& each : harmonics) require_finite("sum of far lights", each);
+    polynomial_ = irradiance_polynomial(harmonics, options.angular_weight);
 }
 
 glm::dvec3 SurfaceLighting::irradiance(const glm::dvec3& point, const glm::dvec3& normal) const {

@@ -27,12 +27,12 @@ void validate(const MeshView& mesh, const ShapeOptions& options, const ShapePoin
         refuse_argument("cell_mm", to_text(options.cell_mm), "0.02 to 1000");
     require_positive("max_thickness_mm", options.max_thickness_mm);
     if (options.threads < 0) refuse_argument("threads", std::to_string(options.threads), "0 (all) or more");
-    if (!points.normals.empty() && points.normals.size() != points.points.size()) {
+    const std::span<const glm::dvec3> given = points.points.value_or(std::span<const glm::dvec3>());
+    if (!points.normals.empty() && points.normals.size() != given.size()) {
         refuse_argument("normals", std::to_string(points.normals.size()) + " of them",
-                        "one for each of " + std::to_string(points.points.size()) + " points, or none");
+                        "one for each of " + std::to_string(given.size()) + " points, or none");
     }
-    for (std::size_t i = 0; i < points.points.size(); ++i)
-        require_finite(entry_name("points", i), points.points[i]);
+    for (std::size_t i = 0; i < given.size(); ++i) require_finite(entry_name("points", i), given[i]);
     for (std::size_t i = 0; i < points.normals.size(); ++i)
         require_finite(entry_name("normals", i), points.normals[i]);
 }
@@ -99,10 +99,10 @@ ShapeData::ShapeData(const MeshView& mesh, const LaneMedium& medium, std::option
       vertices(mesh.vertices().begin(), mesh.vertices().end()),
       spectrum(std::move(nodes)),
       solver(std::make_shared<const ShapeSolver>(
-          mesh, where.points, where.normals, medium,
+          mesh, where, medium,
           SolverOptions{given.unit_mm, given.cell_mm, given.max_thickness_mm, given.threads})) {
     const Body& body = solver->body();
-    if (where.points.empty()) {
+    if (!where.points) {
         points = vertices;
     } else {
         for (const Site& site : solver->sites().sites())

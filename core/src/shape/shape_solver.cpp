@@ -66,9 +66,9 @@ bool shines_on(const ThinPart& part, std::span<const Lanes> light) {
     });
 }
 
-SurfaceSites make_sites(const Body& body, const TriangleTree& tree, std::span<const glm::dvec3> points,
-                        std::span<const glm::dvec3> normals, int threads) {
-    if (points.empty()) return SurfaceSites(body);
+SurfaceSites make_sites(const Body& body, const TriangleTree& tree, const ShapePoints& where, int threads) {
+    if (!where.points) return SurfaceSites(body);
+    const std::span<const glm::dvec3> points = *where.points;
     std::vector<glm::vec3> local;
     local.reserve(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -77,19 +77,21 @@ SurfaceSites make_sites(const Body& body, const TriangleTree& tree, std::span<co
             refuse_argument(entry_name("points", i)(), to_text(points[i]),
                             "up to 1e9 mm from the body's center");
     }
-    const std::vector<glm::vec3> facing(normals.begin(), normals.end());
+    // Before single precision, in which short and long normals are 0 and infinite.
+    std::vector<glm::vec3> facing;
+    facing.reserve(where.normals.size());
+    for (const glm::dvec3& n : where.normals) facing.emplace_back(n == glm::dvec3(0.0) ? n : unit(n));
     return {body, tree, local, facing, threads};
 }
 
 }  // namespace
 
-ShapeSolver::ShapeSolver(const MeshView& mesh, std::span<const glm::dvec3> points,
-                         std::span<const glm::dvec3> normals, const LaneMedium& medium,
+ShapeSolver::ShapeSolver(const MeshView& mesh, const ShapePoints& where, const LaneMedium& medium,
                          const SolverOptions& options)
     : options_(options),
       body_(mesh, options.unit_mm),
       surface_(body_, options.cell_mm),
-      sites_(make_sites(body_, surface_.tree(), points, normals, options.threads)),
+      sites_(make_sites(body_, surface_.tree(), where, options.threads)),
       medium_(medium),
       margin_(margin_of(medium, options)) {
     expect_work(static_cast<double>(sites_.sites().size()));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <skinglow/shape.h>
+
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -30,10 +32,9 @@ struct SiteLight {
 /// May be asked from many threads at once.
 class ShapeSolver {
   public:
-    /// @param points   points whose exitance is asked, units of the mesh; none: its vertices
-    /// @param normals  one each; none: of the nearest triangle
-    ShapeSolver(const MeshView& mesh, std::span<const glm::dvec3> points, std::span<const glm::dvec3> normals,
-                const LaneMedium& medium, const SolverOptions& options);
+    /// @param where  points whose exitance is asked
+    ShapeSolver(const MeshView& mesh, const ShapePoints& where, const LaneMedium& medium,
+                const SolverOptions& options);
     ShapeSolver(const ShapeSolver&) = delete;
     ShapeSolver& operator=(const ShapeSolver&) = delete;
 

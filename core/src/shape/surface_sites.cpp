@@ -82,8 +82,7 @@ SurfaceSites::SurfaceSites(const Body& body, const TriangleTree& tree, std::span
                 const BodyTriangle& t = body.triangles()[found->triangle];
                 site.position = body.at(t, found->u, found->v);
                 // The given normal where the surface is smooth: on an edge the nearest triangle is either.
-                const glm::vec3 given = unit_or_zero(facing);
-                site.normal = glm::dot(given, t.normal) > smooth ? given : t.normal;
+                site.normal = glm::dot(facing, t.normal) > smooth ? facing : t.normal;
                 site.point = *found;
                 site.on_surface = true;
             }

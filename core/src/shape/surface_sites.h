@@ -33,7 +33,7 @@ class SurfaceSites {
     explicit SurfaceSites(const Body& body);
 
     /// Points on the surface; each is moved to the nearest one of the triangles that face along its normal.
-    /// @param normals  one each, 0: of any triangle; or empty
+    /// @param normals  one each, unit, or 0: of any triangle; or none at all
     SurfaceSites(const Body& body, const TriangleTree& tree, std::span<const glm::vec3> points,
                  std::span<const glm::vec3> normals, int threads);
 

@@ -41,7 +41,8 @@ class TriangleTree {
     std::span<const std::uint32_t> neighborhood(std::uint32_t triangle) const;
 
     /// The nearest point of the triangles that face along a normal (any, where it is 0); none where no
-    /// triangle does. Of equally near ones the first in the tree.
+    /// triangle does. Of equally near ones the one that faces along it more, or the first in the tree.
+    /// @param facing  unit, or 0
     std::optional<SurfacePoint> nearest(const glm::vec3& point, const glm::vec3& facing) const;
 
   private:
