@@ -16,6 +16,7 @@ from ..session import SESSION
 from ..show.frozen import is_frozen
 from ..show.group_nodes import nodes_of
 from ..show.lut_image import Atlas, images_of
+from ..table.light_room import NO_ROOM
 from ..table.lut_layout import plain_row, surface_row
 from ..table.occlusion import with_visible_fractions
 from ..table.skin_tables import Table, compute_table, signature_of
@@ -23,7 +24,7 @@ from ..table.texel_mapping import texels_per_mm
 from . import shape_answers, shape_update, waiting
 from .frozen_update import follow_frozen, mark_of
 from .hidden_layers import evaluate_anew
-from .needed_nodes import fit_nodes, is_fixed, make_room
+from .needed_nodes import crowding, fit_nodes, is_fixed, make_room
 from .rebuilt import Rebuilt
 from .shape_tiles import hide_tiles, write_tiles
 
@@ -87,11 +88,14 @@ def _update_scene(
             continue
         try:
             members = [(obj, _as_can_be(obj, skin, depsgraph)) for obj, skin in members]
-            rebuilt += _update_group(group, members, reading, depsgraph.mode, only_live, faults)
+            rebuilt += _update_group(group, members, reading, depsgraph, only_live, faults)
         except SkinError as error:
             for _obj, skin in members:
                 faults[skin.key] = f"{skin.name}: {error}"
     SESSION.faults = faults
+    if depsgraph.mode == "RENDER":
+        for key, fault in faults.items():
+            SESSION.render_faults.setdefault(key, f"Render of frame {depsgraph.scene.frame_current}: {fault}")
     shape_update.forget_lost({skin.key for _obj, skin in reading.skins if skin.shape is not None})
     shape_answers.take_soon()
     waiting.pass_on()
@@ -114,10 +118,11 @@ def _update_group(
     group: bpy.types.NodeTree,
     members: list[tuple[bpy.types.Object, Skin]],
     reading: SceneReading,
-    mode: str,
+    depsgraph: bpy.types.Depsgraph,
     only_live: bool,
     faults: dict[str, str],
 ) -> list[Rebuilt]:
+    mode = depsgraph.mode
     row_of = _separate_rows(group, members)
     images = make_room(group, max(skin.base[1] for _obj, skin in members), 1 + max(row_of.values()))
     atlas = _atlas(group, mode, images)
@@ -126,7 +131,9 @@ def _update_group(
     kept = _keep(atlas, other, members) if only_live else set()
     fixed = is_fixed(group)
     _compute(atlas, members, kept, reading, faults, fixed)
-    if fit_nodes(group, atlas, members):
+    if fit_nodes(group, atlas, members, reading, depsgraph):
+        for _obj, skin in members:
+            SESSION.render_faults.pop(skin.key, None)
         old, atlas = atlas, _atlas(group, mode, images_of(group))
         kept = _keep(atlas, old, members) if only_live else set()
         _compute(atlas, members, kept, reading, faults, fixed)
@@ -198,20 +205,25 @@ def _compute(
 
     fixed  whether its light has to fit into the nodes that there are
     """
-    room = atlas.layout if fixed else None
-    for _obj, skin in members:
+    room = (atlas.layout or NO_ROOM) if fixed else None
+    for obj, skin in members:
         if skin.key in kept:
             continue
         signature = signature_of(skin, reading.lights, reading.world)
         if skin.shape is not None:
             signature = signature._replace(mesh=shape_update.mesh_version(skin.key, atlas.mode))
-        if atlas.signatures.get(skin.key) == signature:
-            continue
-        try:
-            atlas.tables[skin.key] = compute_table(skin, reading.lights, reading.world, room)
-            atlas.signatures[skin.key] = signature
-        except (SkinError, ValueError) as error:
-            faults[skin.key] = str(error)
+        table = atlas.tables.get(skin.key)
+        # Once nodes can be added, what had no room gets it.
+        is_cut = table is not None and skin.surface is not None and (table.lighting is None or table.crowded_out)
+        if atlas.signatures.get(skin.key) != signature or (is_cut and not fixed):
+            try:
+                table = compute_table(skin, reading.lights, reading.world, room)
+                atlas.tables[skin.key], atlas.signatures[skin.key] = table, signature
+            except (SkinError, ValueError) as error:
+                faults[skin.key] = str(error)
+                continue
+        if table.crowded_out:
+            faults[skin.key] = crowding(obj.skinglow.group, skin, table)
 
 
 def _texels(table: Table, skin: Skin, atlas: Atlas) -> np.ndarray:
@@ -221,7 +233,7 @@ def _texels(table: Table, skin: Skin, atlas: Atlas) -> np.ndarray:
     weight = table.weight if table.weight is not None else (1.0, 1.0, 1.0)
     depth_per_mm = skin.surface.depth_per_mm if skin.surface is not None else 0.0
     columns = working_space.from_rec709(table.columns.transpose(0, 2, 1))
-    return surface_row(columns, weight, table.lighting, depth_per_mm, atlas.layout)
+    return surface_row(columns, weight, table.lighting, depth_per_mm, atlas.layout, table.constant)
 
 
 def _atlas(group: bpy.types.NodeTree, mode: str, images: list[bpy.types.Image]) -> Atlas:
