@@ -11,16 +11,18 @@ from ..errors import SkinError
 from ..identity import key_of
 from ..read import working_space
 from ..read.known_objects import Known
-from ..read.scene_reading import ROW_PROPERTY, SceneReading, Skin, lit_per_pixel, read_scene
+from ..read.scene_reading import ROW_PROPERTY, SceneReading, Skin, lit_per_pixel, read_scene, read_skin
 from ..session import SESSION
 from ..show.frozen import is_frozen
 from ..show.group_nodes import nodes_of
 from ..show.lut_image import Atlas, images_of
+from ..show.tile_image import place_tiles
 from ..table.light_room import NO_ROOM
 from ..table.lut_layout import plain_row, surface_row
 from ..table.occlusion import with_visible_fractions
 from ..table.skin_tables import Table, compute_table, signature_of
 from ..table.texel_mapping import texels_per_mm
+from ..thickness.tile_attribute import rows_of
 from . import shape_answers, shape_update, waiting
 from .frozen_update import follow_frozen, mark_of
 from .hidden_layers import evaluate_anew
@@ -38,15 +40,17 @@ def update_scene(
     only_live: bool = False,
     left_out: Callable[[bpy.types.Object], bool] | None = None,
     known: Known | None = None,
+    made: bpy.types.Object | None = None,
 ) -> list[Rebuilt]:
     """Recomputes and shows what changed in this depsgraph. Faults go to SESSION.faults and do not affect other skins.
 
     A skin with a fault keeps its last good table. With only_live, skins that are not live keep the table they show.
     left_out  whether another view layer decides what a skin shows
     known     what an earlier reading of this depsgraph found, if that still holds; None: every object is looked at
+    made      a skin that is made ready for renders also if it is hidden in this depsgraph
     """
     with TURN:
-        return _update_scene(depsgraph, only_live, left_out, known)
+        return _update_scene(depsgraph, only_live, left_out, known, made)
 
 
 def _update_scene(
@@ -54,6 +58,7 @@ def _update_scene(
     only_live: bool,
     left_out: Callable[[bpy.types.Object], bool] | None,
     known: Known | None,
+    made: bpy.types.Object | None,
 ) -> list[Rebuilt]:
     evaluate_anew(depsgraph)
     SESSION.updates += 1
@@ -66,6 +71,10 @@ def _update_scene(
         SESSION.known[address] = reading.known
     else:
         SESSION.known.pop(address, None)
+    seen = {skin.key for _obj, skin in reading.skins} | faults.keys()
+    hidden = made is not None and key_of(made) not in seen
+    if hidden:
+        reading = reading._replace(skins=[*reading.skins, (made, _as_in_file(made))])
     SESSION.reference_objects = frozenset(skin.reference for _obj, skin in reading.skins if skin.reference)
     rebuilt: list[Rebuilt] = []
     groups: dict[str, tuple[bpy.types.NodeTree, list[tuple[bpy.types.Object, Skin]]]] = {}
@@ -87,8 +96,12 @@ def _update_scene(
                 SESSION.marks.update((skin.key, (frame, mark_of(obj, skin, reading))) for obj, skin in members)
             continue
         try:
-            members = [(obj, _as_can_be(obj, skin, depsgraph)) for obj, skin in members]
+            members = [
+                (obj, skin if hidden and obj == made else _as_can_be(obj, skin, depsgraph)) for obj, skin in members
+            ]
             rebuilt += _update_group(group, members, reading, depsgraph, only_live, faults)
+            if hidden and made.skinglow.group == group and nodes_of(group).tiles and rows_of(made.data):
+                place_tiles(group, {made: rows_of(made.data)})
         except SkinError as error:
             for _obj, skin in members:
                 faults[skin.key] = f"{skin.name}: {error}"
@@ -100,6 +113,15 @@ def _update_scene(
     shape_answers.take_soon()
     waiting.pass_on()
     return rebuilt
+
+
+def _as_in_file(obj: bpy.types.Object) -> Skin:
+    """A skin that is hidden and so not evaluated, but a render may show it, and has to find its nodes."""
+    shape_update.forget({key_of(obj)})
+    skin = read_skin(obj, obj.matrix_world)
+    if skin.shape is None or rows_of(obj.data):
+        return skin
+    return lit_per_pixel(skin, obj, obj.matrix_world)
 
 
 def _as_can_be(obj: bpy.types.Object, skin: Skin, depsgraph: bpy.types.Depsgraph) -> Skin:
