@@ -40,6 +40,8 @@ class Session:
         self.tile_rows: dict[str, dict[str, tuple[int, int]]] = {}
         #: Skin to what is wrong with it, as text; '*' is what concerns no single skin.
         self.faults: dict[str, str] = {}
+        #: The same as the last render told it, with the frame: the viewport's updates after it know nothing of that.
+        self.render_faults: dict[str, str] = {}
         #: (node group, row) to the object that owns the row.
         self.owners: dict[tuple[str, int], str] = {}
         #: Frozen skin to the frame at which the viewport was last looked at, and what its light depends on there.
@@ -55,6 +57,8 @@ class Session:
         self.reading: tuple[int, SceneReading] | None = None
         #: Address of a depsgraph to the objects of it that matter, as of its last reading.
         self.known: dict[int, Known] = {}
+        #: The light objects of a scene that may shine in a render, and what they were found by (possible_lights.py).
+        self.light_objects: tuple[tuple, list[bpy.types.Object]] | None = None
         #: Whether the file was seen to have no skin; None: not looked at since data was added.
         self.has_none: bool | None = None
         #: Whether a skin may have become one whose mesh lacks tiles since all were looked at.
@@ -94,6 +98,10 @@ class Session:
         #: Light that a window is freezing to images, frame by frame.
         self.freezing: Freezing | None = None
 
+    def told(self) -> dict[str, str]:
+        """What is wrong now, and what was in the last render, by skin."""
+        return {**self.render_faults, **self.faults}
+
     def reading_of(self, depsgraph: bpy.types.Depsgraph) -> SceneReading | None:
         """What the last update read, if it was of that depsgraph and no change was reported since."""
         address, reading = self.reading or (None, None)
@@ -118,9 +126,11 @@ class Session:
         self.tile_rows.clear()
         self.owners.clear()
         self.faults.clear()
+        self.render_faults.clear()
         self.marks.clear()
         self.base_images.clear()
         self.known.clear()
+        self.light_objects = None
         self.material_groups.clear()
         self.reading = self.has_none = None
 
@@ -137,6 +147,7 @@ class Session:
             "shapes",
             "shown_meshes",
             "shape_worker",
+            "render_faults",
         )
         kept = {name: getattr(self, name) for name in names}
         self.__init__()

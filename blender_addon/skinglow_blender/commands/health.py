@@ -8,6 +8,7 @@ import numpy as np
 
 from ..errors import SkinError
 from ..identity import key_of
+from ..live.needed_nodes import SHOW_IN_LIBRARY, SHOW_LIGHTS
 from ..live.shape_update import EDIT_MODE, shape_report
 from ..read.enabled_objects import is_followed
 from ..read.measured_size import is_reshaped, is_stretched
@@ -41,17 +42,35 @@ BY_HAND = frozenset({CHOOSE_REFERENCE, INCLUDE_REFERENCE, OWN_MESH})
 def health(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None = None) -> list[Fault]:
     """What is wrong with a skin, worst first, and what to do about each; empty: all is well.
 
+    What the last render had to tell is kept, until the next one, or until the skin has the nodes that it lacked.
+
     obj        a skin; raises SkinError for any other object
     depsgraph  whose evaluated mesh is looked at; None: the context's
     """
     if obj.type != "MESH" or not obj.skinglow.enabled:
         skin_settings_of(obj)
-    depsgraph = depsgraph or bpy.context.evaluated_depsgraph_get()
+    faults = _faults_now(obj, depsgraph or bpy.context.evaluated_depsgraph_get())
+    told = SESSION.render_faults.get(key_of(obj))
+    # What is said of now need not be said again of then.
+    if told is not None and not any(fault.what in told for fault in faults):
+        faults.append(_as_fault(told))
+    return faults
+
+
+def _faults_now(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[Fault]:
     faults = with_thickness_faults(quick_faults(obj), lambda: thickness_faults(obj, depsgraph))
     told = SESSION.faults.get(key_of(obj))
     if told is not None and not faults:
-        faults.append(Fault(told, REPAIR))
+        faults.append(_as_fault(told))
     return faults
+
+
+def _as_fault(told: str) -> Fault:
+    """What an update told of a skin, with the remedy that it named if Repair is none."""
+    for remedy in (SHOW_LIGHTS, SHOW_IN_LIBRARY):
+        if told.endswith(f": {remedy}"):
+            return Fault(told.removesuffix(f": {remedy}"), remedy)
+    return Fault(told, REPAIR)
 
 
 def with_thickness_faults(quick: list[Fault], find: Callable[[], Iterable[Fault]]) -> list[Fault]:
@@ -196,15 +215,17 @@ def require_health(scene: bpy.types.Scene, frames: Iterable[int]) -> None:
     """Raises SkinError with the faults of all skins that the scene renders, in these frames, but not for hints."""
     faults = []
     rendered = RenderedObjects(scene)
+    depsgraph = bpy.context.evaluated_depsgraph_get()
     for obj in scene.objects:
         if obj.type != "MESH" or not obj.skinglow.enabled or not rendered.shows(obj):
             continue
-        # The scene may be at any frame.
+        # The scene may be at any frame, and what the last render told the next one will tell.
         passed_over = {FREEZE_MORE}
         reference = obj.skinglow.reference_object
         if reference is not None and rendered.follows(reference):
             passed_over.add(INCLUDE_REFERENCE)  # what is disabled in the viewport alone
-        found = [fault for fault in health(obj) if not fault.is_hint and fault.remedy not in passed_over]
+        now = _faults_now(obj, depsgraph)
+        found = [fault for fault in now if not fault.is_hint and fault.remedy not in passed_over]
         if is_frozen(obj.skinglow.group):
             first, last = frozen_frames(obj.skinglow.group)
             missing = [frame for frame in frames if not first <= frame <= last]

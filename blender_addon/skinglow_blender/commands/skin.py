@@ -127,7 +127,7 @@ def _make(
             obj[ROW_PROPERTY] = (0.0, 0.0, 0.0, 0.0)
         obj.update_tag(refresh={"OBJECT"})
         depsgraph = bpy.context.evaluated_depsgraph_get()
-        rebuilt = tuple(r for r in update_scene(depsgraph) if r.key == key_of(obj))
+        rebuilt = tuple(r for r in update_scene(depsgraph, made=obj) if r.key == key_of(obj))
         fault = SESSION.faults.get(key_of(obj))
         if fault is not None:
             raise SkinError(fault)

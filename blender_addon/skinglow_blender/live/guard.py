@@ -40,11 +40,13 @@ def guarded(function: Callable[..., None]) -> Callable[..., None]:
 
 
 def _show(error: Exception) -> None:
-    if isinstance(error, (SkinError, ValueError)):
-        SESSION.faults["*"] = str(error)
-        return
-    SESSION.faults["*"] = f"Unexpected {type(error).__name__}: {error} (details in the system console)"
-    traceback.print_exception(error)
+    is_told = isinstance(error, (SkinError, ValueError))
+    text = str(error) if is_told else f"Unexpected {type(error).__name__}: {error} (details in the system console)"
+    SESSION.faults["*"] = text
+    if SESSION.rendering:
+        SESSION.render_faults["*"] = text
+    if not is_told:
+        traceback.print_exception(error)
 
 
 def has_skins(depsgraph: bpy.types.Depsgraph | None = None) -> bool:

@@ -98,6 +98,7 @@ def on_frame_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> N
 def on_render_init(_scene: bpy.types.Scene, _unused: None) -> None:
     """Called when a render begins: the viewport's images are not updated until it ends."""
     SESSION.rendering = True
+    SESSION.render_faults.clear()
 
 
 @guarded
@@ -126,6 +127,7 @@ def on_render_cancel(scene: bpy.types.Scene, _unused: None) -> None:
     """Called when a render is canceled: what it waited for then is no fault."""
     for key in [key for (key, mode), state in SESSION.shapes.items() if mode == "RENDER" and state.is_canceled]:
         SESSION.faults.pop(key, None)
+        SESSION.render_faults.pop(key, None)
     on_render_end(scene, None)
 
 
@@ -166,6 +168,7 @@ def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
     """Called after loading a file. Evaluations during loading are not reported, so everything is updated here."""
     shape_update.forget()
     SESSION.forget()
+    SESSION.render_faults.clear()
     SESSION.undone_graphs.clear()
     follow_windows()  # loading clears subscriptions
     upgrade()

@@ -11,19 +11,22 @@ from ..errors import SkinError
 from ..identity import key_of
 from ..read import working_space
 from ..read.known_objects import Known
-from ..read.scene_reading import ROW_PROPERTY, SceneReading, Skin, lit_per_pixel, read_scene
+from ..read.scene_reading import ROW_PROPERTY, SceneReading, Skin, lit_per_pixel, read_scene, read_skin
 from ..session import SESSION
 from ..show.frozen import is_frozen
 from ..show.group_nodes import nodes_of
 from ..show.lut_image import Atlas, images_of
+from ..show.tile_image import place_tiles
+from ..table.light_room import NO_ROOM
 from ..table.lut_layout import plain_row, surface_row
 from ..table.occlusion import with_visible_fractions
 from ..table.skin_tables import Table, compute_table, signature_of
 from ..table.texel_mapping import texels_per_mm
+from ..thickness.tile_attribute import rows_of
 from . import shape_answers, shape_update, waiting
 from .frozen_update import follow_frozen, mark_of
 from .hidden_layers import evaluate_anew
-from .needed_nodes import fit_nodes, is_fixed, make_room
+from .needed_nodes import crowding, fit_nodes, is_fixed, make_room
 from .rebuilt import Rebuilt
 from .shape_tiles import hide_tiles, write_tiles
 
@@ -37,15 +40,17 @@ def update_scene(
     only_live: bool = False,
     left_out: Callable[[bpy.types.Object], bool] | None = None,
     known: Known | None = None,
+    made: bpy.types.Object | None = None,
 ) -> list[Rebuilt]:
     """Recomputes and shows what changed in this depsgraph. Faults go to SESSION.faults and do not affect other skins.
 
     A skin with a fault keeps its last good table. With only_live, skins that are not live keep the table they show.
     left_out  whether another view layer decides what a skin shows
     known     what an earlier reading of this depsgraph found, if that still holds; None: every object is looked at
+    made      a skin that is made ready for renders also if it is hidden in this depsgraph
     """
     with TURN:
-        return _update_scene(depsgraph, only_live, left_out, known)
+        return _update_scene(depsgraph, only_live, left_out, known, made)
 
 
 def _update_scene(
@@ -53,6 +58,7 @@ def _update_scene(
     only_live: bool,
     left_out: Callable[[bpy.types.Object], bool] | None,
     known: Known | None,
+    made: bpy.types.Object | None,
 ) -> list[Rebuilt]:
     evaluate_anew(depsgraph)
     SESSION.updates += 1
@@ -65,6 +71,10 @@ def _update_scene(
         SESSION.known[address] = reading.known
     else:
         SESSION.known.pop(address, None)
+    seen = {skin.key for _obj, skin in reading.skins} | faults.keys()
+    hidden = made is not None and key_of(made) not in seen
+    if hidden:
+        reading = reading._replace(skins=[*reading.skins, (made, _as_in_file(made))])
     SESSION.reference_objects = frozenset(skin.reference for _obj, skin in reading.skins if skin.reference)
     rebuilt: list[Rebuilt] = []
     groups: dict[str, tuple[bpy.types.NodeTree, list[tuple[bpy.types.Object, Skin]]]] = {}
@@ -86,16 +96,32 @@ def _update_scene(
                 SESSION.marks.update((skin.key, (frame, mark_of(obj, skin, reading))) for obj, skin in members)
             continue
         try:
-            members = [(obj, _as_can_be(obj, skin, depsgraph)) for obj, skin in members]
-            rebuilt += _update_group(group, members, reading, depsgraph.mode, only_live, faults)
+            members = [
+                (obj, skin if hidden and obj == made else _as_can_be(obj, skin, depsgraph)) for obj, skin in members
+            ]
+            rebuilt += _update_group(group, members, reading, depsgraph, only_live, faults)
+            if hidden and made.skinglow.group == group and nodes_of(group).tiles and rows_of(made.data):
+                place_tiles(group, {made: rows_of(made.data)})
         except SkinError as error:
             for _obj, skin in members:
                 faults[skin.key] = f"{skin.name}: {error}"
     SESSION.faults = faults
+    if depsgraph.mode == "RENDER":
+        for key, fault in faults.items():
+            SESSION.render_faults.setdefault(key, f"Render of frame {depsgraph.scene.frame_current}: {fault}")
     shape_update.forget_lost({skin.key for _obj, skin in reading.skins if skin.shape is not None})
     shape_answers.take_soon()
     waiting.pass_on()
     return rebuilt
+
+
+def _as_in_file(obj: bpy.types.Object) -> Skin:
+    """A skin that is hidden and so not evaluated, but a render may show it, and has to find its nodes."""
+    shape_update.forget({key_of(obj)})
+    skin = read_skin(obj, obj.matrix_world)
+    if skin.shape is None or rows_of(obj.data):
+        return skin
+    return lit_per_pixel(skin, obj, obj.matrix_world)
 
 
 def _as_can_be(obj: bpy.types.Object, skin: Skin, depsgraph: bpy.types.Depsgraph) -> Skin:
@@ -114,10 +140,11 @@ def _update_group(
     group: bpy.types.NodeTree,
     members: list[tuple[bpy.types.Object, Skin]],
     reading: SceneReading,
-    mode: str,
+    depsgraph: bpy.types.Depsgraph,
     only_live: bool,
     faults: dict[str, str],
 ) -> list[Rebuilt]:
+    mode = depsgraph.mode
     row_of = _separate_rows(group, members)
     images = make_room(group, max(skin.base[1] for _obj, skin in members), 1 + max(row_of.values()))
     atlas = _atlas(group, mode, images)
@@ -126,7 +153,9 @@ def _update_group(
     kept = _keep(atlas, other, members) if only_live else set()
     fixed = is_fixed(group)
     _compute(atlas, members, kept, reading, faults, fixed)
-    if fit_nodes(group, atlas, members):
+    if fit_nodes(group, atlas, members, reading, depsgraph):
+        for _obj, skin in members:
+            SESSION.render_faults.pop(skin.key, None)
         old, atlas = atlas, _atlas(group, mode, images_of(group))
         kept = _keep(atlas, old, members) if only_live else set()
         _compute(atlas, members, kept, reading, faults, fixed)
@@ -198,20 +227,25 @@ def _compute(
 
     fixed  whether its light has to fit into the nodes that there are
     """
-    room = atlas.layout if fixed else None
-    for _obj, skin in members:
+    room = (atlas.layout or NO_ROOM) if fixed else None
+    for obj, skin in members:
         if skin.key in kept:
             continue
         signature = signature_of(skin, reading.lights, reading.world)
         if skin.shape is not None:
             signature = signature._replace(mesh=shape_update.mesh_version(skin.key, atlas.mode))
-        if atlas.signatures.get(skin.key) == signature:
-            continue
-        try:
-            atlas.tables[skin.key] = compute_table(skin, reading.lights, reading.world, room)
-            atlas.signatures[skin.key] = signature
-        except (SkinError, ValueError) as error:
-            faults[skin.key] = str(error)
+        table = atlas.tables.get(skin.key)
+        # Once nodes can be added, what had no room gets it.
+        is_cut = table is not None and skin.surface is not None and (table.lighting is None or table.crowded_out)
+        if atlas.signatures.get(skin.key) != signature or (is_cut and not fixed):
+            try:
+                table = compute_table(skin, reading.lights, reading.world, room)
+                atlas.tables[skin.key], atlas.signatures[skin.key] = table, signature
+            except (SkinError, ValueError) as error:
+                faults[skin.key] = str(error)
+                continue
+        if table.crowded_out:
+            faults[skin.key] = crowding(obj.skinglow.group, skin, table)
 
 
 def _texels(table: Table, skin: Skin, atlas: Atlas) -> np.ndarray:
@@ -221,7 +255,7 @@ def _texels(table: Table, skin: Skin, atlas: Atlas) -> np.ndarray:
     weight = table.weight if table.weight is not None else (1.0, 1.0, 1.0)
     depth_per_mm = skin.surface.depth_per_mm if skin.surface is not None else 0.0
     columns = working_space.from_rec709(table.columns.transpose(0, 2, 1))
-    return surface_row(columns, weight, table.lighting, depth_per_mm, atlas.layout)
+    return surface_row(columns, weight, table.lighting, depth_per_mm, atlas.layout, table.constant)
 
 
 def _atlas(group: bpy.types.NodeTree, mode: str, images: list[bpy.types.Image]) -> Atlas:

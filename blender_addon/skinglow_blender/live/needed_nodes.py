@@ -8,18 +8,40 @@ import bpy
 
 from ..errors import SkinError
 from ..identity import key_of
-from ..read.scene_reading import Skin
+from ..read.possible_lights import lights_that_may_shine, world_may_shine
+from ..read.scene_reading import SceneReading, Skin
 from ..session import SESSION
 from ..show.group_nodes import GroupNodes, build_nodes, nodes_of
 from ..show.image_pairs import have_room
 from ..show.inner_groups import has_inner_groups
 from ..show.lut_image import ROWS, Atlas, ensure_images, images_of
+from ..table.light_room import layout_with_room
 from ..table.lut_layout import Layout, layout_of
+from ..table.skin_tables import Table
+
+#: What to do about nodes for too few lights: SHOW_LIGHTS where none can be added while rendering, SHOW_IN_LIBRARY where
+#: they belong to a library.
+OTHERWISE = "or set Lighting to Per Object or Through the Shape"
+SHOW_LIGHTS = f"show these in the viewport once, {OTHERWISE}"
+SHOW_IN_LIBRARY = f"open that file, show as many lights there and save it, or make the skin local, {OTHERWISE}"
 
 
 def is_fixed(group: bpy.types.NodeTree) -> bool:
     """Nodes cannot be added while rendering, nor to a group from a library."""
     return SESSION.rendering or group.library is not None
+
+
+def crowding(group: bpy.types.NodeTree, skin: Skin, table: Table) -> str:
+    """The fault of a skin whose nodes have no room for some of its light."""
+    names = [f"'{name}'" for name in table.crowded_out[:3]]
+    if len(table.crowded_out) > len(names):
+        names.append(f"{len(table.crowded_out) - len(names)} more")
+    shown = f"so that the light of {', '.join(names)} is the same all over it"
+    if group.library is not None:
+        what, remedy = f"its nodes, linked from {group.library.filepath}, are too few for these lights", SHOW_IN_LIBRARY
+    else:
+        what, remedy = "its material has too few nodes for these lights while rendering", SHOW_LIGHTS
+    return f"{skin.name}: {what}, {shown}: {remedy}"
 
 
 def make_room(group: bpy.types.NodeTree, width: int, rows: int) -> list[bpy.types.Image]:
@@ -34,18 +56,30 @@ def make_room(group: bpy.types.NodeTree, width: int, rows: int) -> list[bpy.type
     return images_of(group)
 
 
-def fit_nodes(group: bpy.types.NodeTree, atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]]) -> bool:
-    """Builds the nodes that the group's skins need; returns whether that invalidated the atlas."""
+def fit_nodes(
+    group: bpy.types.NodeTree,
+    atlas: Atlas,
+    members: list[tuple[bpy.types.Object, Skin]],
+    reading: SceneReading,
+    depsgraph: bpy.types.Depsgraph,
+) -> bool:
+    """Builds the nodes that the group's skins need, and may need while rendering; returns whether that invalidated the
+    atlas.
+    """
+    if group.library is not None:
+        return False
     there = nodes_of(group)
     wanted = _wanted_nodes(group, atlas, members, there)
-    if wanted == there or group.library is not None:
+    if not SESSION.rendering and wanted.layout is not None:
+        wanted = wanted._replace(layout=_with_room(wanted.layout, atlas, members, reading, depsgraph))
+    if wanted == there:
         return False
     if SESSION.rendering:
         # Nodes that are no longer needed may stay.
         if there.rows >= wanted.rows and there.tiles >= wanted.tiles and wanted.layout in (None, there.layout):
             return False
         raise SkinError(
-            "its material has too few nodes for these lights, and nodes cannot be added while rendering: "
+            "its material lacks nodes for this way of lighting, and none can be added while rendering: "
             "update before rendering"
         )
     if not has_inner_groups(group):
@@ -102,3 +136,22 @@ def _wanted_layout(atlas: Atlas, members: list[tuple[bpy.types.Object, Skin]], o
         needed = layout_of(table.lighting, entries)
         wanted = needed if wanted is None else wanted.joined(needed)
     return wanted if wanted.entries >= entries else wanted._replace(entries=entries)
+
+
+def _with_room(
+    wanted: Layout,
+    atlas: Atlas,
+    members: list[tuple[bpy.types.Object, Skin]],
+    reading: SceneReading,
+    depsgraph: bpy.types.Depsgraph,
+) -> Layout:
+    """The layout with nodes for the lights that are off or hidden now, and may shine in a render."""
+    tables = {skin: atlas.tables.get(skin.key) for _obj, skin in members if skin.surface is not None}
+    lit = {skin: table for skin, table in tables.items() if table is not None and table.lighting is not None}
+    if not lit:
+        return wanted
+    possible = lights_that_may_shine(depsgraph, reading.lights, reading.known)
+    world = world_may_shine(depsgraph.scene)
+    for skin, table in lit.items():
+        wanted = wanted.joined(layout_with_room(skin, table, possible, world))
+    return wanted

@@ -102,11 +102,12 @@ def read_light(
 
 def make_light(light: SceneLight) -> Any:  # noqa: ANN401  a skinglow.Light
     """The core's light; raises ValueError, naming light and field, if the core rejects it."""
-    return _light_of(light.signature)
+    return light_of(light.signature)
 
 
 @lru_cache(maxsize=4096)
-def _light_of(signature: tuple) -> Any:  # noqa: ANN401
+def light_of(signature: tuple) -> Any:  # noqa: ANN401
+    """The core's light of a signature (SceneLight); raises as make_light."""
     sg = core()
     name, kind, color, power, position, direction, shape, normalized, visible = signature
     power *= visible

@@ -76,8 +76,12 @@ class Layout(NamedTuple):
 def layout_of(lighting: object, entries: int) -> Layout:
     """The layout that a skinglow.SurfaceLighting needs, rounded up so that few changes need another one."""
     profiled = len(lighting.terms) - lighting.plain_terms
-    counts = (_next_power_of_two(count) for count in (lighting.plain_terms, profiled))
-    return Layout(entries, *counts, bool(np.any(lighting.polynomial)))
+    return layout_with(entries, lighting.plain_terms, profiled, bool(np.any(lighting.polynomial)))
+
+
+def layout_with(entries: int, plain: int, profiled: int, world: bool) -> Layout:
+    """The layout with at least so many terms."""
+    return Layout(entries, _next_power_of_two(plain), _next_power_of_two(profiled), world)
 
 
 def _next_power_of_two(count: int) -> int:
@@ -94,7 +98,12 @@ def plain_row(colors: np.ndarray, width: int) -> np.ndarray:
 
 
 def surface_row(
-    columns: np.ndarray, weight: np.ndarray, lighting: object | None, depth_per_mm: float, layout: Layout
+    columns: np.ndarray,
+    weight: np.ndarray,
+    lighting: object | None,
+    depth_per_mm: float,
+    layout: Layout,
+    constant: np.ndarray | tuple[float, ...] = (0.0, 0.0, 0.0),
 ) -> np.ndarray:
     """A row (layout.width, 4).
 
@@ -102,6 +111,7 @@ def surface_row(
     weight        (3,): the object's weight, used everywhere if there is no lighting
     lighting      a skinglow.SurfaceLighting that fits the layout; its irradiance becomes radiance here
     depth_per_mm  scene units per millimeter of the thickness attribute
+    constant      (3,): irradiance besides that of the lighting, the same everywhere
     """
     row = np.ones((layout.width, 4), np.float32)
     size = len(columns)
@@ -117,7 +127,7 @@ def surface_row(
     if layout.world:
         row[layout.polynomial : layout.terms] = 0.0
     if lighting is not None:
-        row[layout.constant, :3] = 0.0
+        row[layout.constant, :3] = core().diffuse_radiance(constant)
         row[layout.angular : layout.angular + 4, :3] = lighting.angular
         if layout.world:
             row[layout.polynomial : layout.terms, :3] = core().diffuse_radiance(lighting.polynomial)

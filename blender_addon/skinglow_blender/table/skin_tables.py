@@ -13,6 +13,7 @@ from ..read.scene_reading import Skin
 from ..read.scene_world import World
 from ..session import SESSION
 from ..tissue_presets import TISSUE_SLIDERS
+from .light_room import NO_ROOM, fit_lights
 from .lut_layout import MAX_TERMS, Layout, layout_of
 
 #: The largest pixel value of a float image.
@@ -29,6 +30,11 @@ class Table(NamedTuple):
     bound: float | None = None  #: relative error bound of the object's weight on the surface; None: not computed
     lighting: Any = None  #: a skinglow.SurfaceLighting if lit per pixel
     far_lights: frozenset[str] = frozenset()  #: names of the lights without a term in it
+    near_lights: frozenset[str] = frozenset()  #: full names of the light objects with terms
+    #: Names of what its nodes have no room for, though it is lit per pixel.
+    crowded_out: tuple[str, ...] = ()
+    #: Irradiance of these at the reference point, which is shown everywhere.
+    constant: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 class Signature(NamedTuple):
@@ -138,7 +144,8 @@ def world_irradiance(world: World | None) -> tuple[float, float, float]:
 def compute_table(skin: Skin, lights: list[SceneLight], world: World | None, capacity: Layout | None = None) -> Table:
     """Computes a skin's lookup. Raises SkinError or ValueError with the reason if it cannot.
 
-    capacity  the layout that its per-pixel lighting has to fit into; None: unlimited
+    capacity  the layout that its per-pixel lighting has to fit into; NO_ROOM: plain rows; None: unlimited. What has no
+              room lights the skin as one light
     """
     sg = core()
     base = base_lut(skin.base)
@@ -146,21 +153,20 @@ def compute_table(skin: Skin, lights: list[SceneLight], world: World | None, cap
         colors = sg.six_gaussian_lookup(base.size, base.max_thickness_mm)
         return Table(colors, base.texel_mapping, None, colors[:, :, None] * np.eye(3))
     core_lights = core_lights_of(skin, lights)
-    bound, lighting, far = None, None, frozenset()
+    bound, surface = None, _Surface()
     if skin.mode == "PAPER":
         weight = np.add(skin.blood_weight, sg.light_weight(core_lights, skin.point, skin.attenuation))
     else:
         irradiance = np.add(sg.object_irradiance(core_lights, skin.point), world_irradiance(world))
         if skin.surface is not None:
             bound = _object_weight_error(skin, core_lights, world, irradiance)
-            lighting = _lighting(skin, core_lights, world, capacity)
-            far = frozenset(core_lights[i].name for i in lighting.far_lights)
+            surface = _lighting(skin, lights_of(skin, lights), core_lights, world, capacity)
         # Light leaves the skin diffusely: radiance is radiant exitance over pi.
         weight = sg.diffuse_radiance(irradiance)
     colors = sg.recolor(base, weight)
     if np.abs(colors).max() > BRIGHTEST:
         raise SkinError(f"{skin.name}: the lookup exceeds the range of a float image: reduce the power of the lights")
-    return Table(colors, base.texel_mapping, tuple(weight.tolist()), base.matrices, bound, lighting, far)
+    return Table(colors, base.texel_mapping, tuple(weight.tolist()), base.matrices, bound, *surface)
 
 
 def _object_weight_error(skin: Skin, lights: list, world: World | None, irradiance: np.ndarray) -> float:
@@ -172,20 +178,43 @@ def _object_weight_error(skin: Skin, lights: list, world: World | None, irradian
     return float(error.max()) / largest if largest > 0.0 else 0.0
 
 
-def _lighting(skin: Skin, lights: list, world: World | None, capacity: Layout | None) -> Any:  # noqa: ANN401
+class _Surface(NamedTuple):
+    """The light of a skin that is lit per pixel; the fields are those of Table."""
+
+    lighting: Any = None
+    far_lights: frozenset[str] = frozenset()
+    near_lights: frozenset[str] = frozenset()
+    crowded_out: tuple[str, ...] = ()
+    constant: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+def _lighting(
+    skin: Skin, lights: list[SceneLight], core_lights: list[Any], world: World | None, capacity: Layout | None
+) -> _Surface:
     """The light on the surface with as many terms as allowed, or as fit."""
     sg = core()
     angular = _angular_weight(skin.base)
     environment = world.environment if world is not None else None
     box = skin.surface.min, skin.surface.max
     for max_terms in range(MAX_TERMS, -1, -1):
-        lighting = sg.SurfaceLighting(lights, *box, environment, angular, max_terms=max_terms)
+        lighting = sg.SurfaceLighting(core_lights, *box, environment, angular, max_terms=max_terms)
         if capacity is None or capacity.holds(layout_of(lighting, skin.base[1])):
-            return lighting
-    raise SkinError(
-        f"{skin.name}: its material has too few nodes for these lights, and nodes cannot be added while rendering: "
-        "show the lights of the render in the viewport once, or set Lighting to Per Object"
-    )
+            far = frozenset(core_lights[i].name for i in lighting.far_lights)
+            return _Surface(lighting, far, frozenset(lights[i].object_name for i in lighting.lights_of_terms))
+    if capacity != NO_ROOM and capacity.entries < skin.base[1]:
+        raise SkinError(
+            f"{skin.name}: its material has nodes for a lookup of {capacity.entries} entries, and these cannot be "
+            f"changed now: set Size to {capacity.entries}"
+        )
+    fitted = fit_lights(core_lights, skin, angular, capacity)
+    crowded_out = [core_lights[i].name for i in fitted.others]
+    constant = sg.object_irradiance([core_lights[i] for i in fitted.others], skin.point)
+    if any(world_irradiance(world)):
+        crowded_out.append(world.name)
+        constant = np.add(constant, world_irradiance(world))
+    near = fitted.lighting.lights_of_terms if fitted.lighting is not None else ()
+    near_lights = frozenset(lights[fitted.lights[i]].object_name for i in near)
+    return _Surface(fitted.lighting, frozenset(), near_lights, tuple(crowded_out), tuple(constant))
 
 
 @lru_cache(maxsize=64)

@@ -63,13 +63,15 @@ class _Main:
 def _draw_faults_of_update(
     layout: bpy.types.UILayout, obj: bpy.types.Object | None, context: bpy.types.Context
 ) -> None:
-    """What went wrong in the last update: with this object or as a whole, and the way to other skins with faults."""
-    shown = ("*", key_of(obj) if obj is not None else "")
-    for fault in [SESSION.faults[key] for key in shown if key in SESSION.faults]:
+    """What went wrong in the last update or render: with this object or as a whole, and the way to other skins with
+    faults.
+    """
+    shown, told = ("*", key_of(obj) if obj is not None else ""), SESSION.told()
+    for fault in [told[key] for key in shown if key in told]:
         box = layout.box()
         box.alert = True
         draw_wrapped(box.column(align=True), fault, context, icon="ERROR")
-    others = len(SESSION.faults.keys() - set(shown))
+    others = len(told.keys() - set(shown))
     if others:
         row = layout.row()
         row.alert = True

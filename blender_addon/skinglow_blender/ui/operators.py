@@ -208,19 +208,19 @@ class SKINGLOW_OT_select_faulty(_SkinOperator, bpy.types.Operator):  # noqa: N80
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return may_act(cls, context, found=bool(SESSION.faults.keys() - {"*"}), what="No skin has a fault")
+        return may_act(cls, context, found=bool(SESSION.told().keys() - {"*"}), what="No skin has a fault")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         def select() -> str:
             others = [obj for obj in context.view_layer.objects if obj != context.object and obj.visible_get()]
-            found = next((obj for obj in others if key_of(obj) in SESSION.faults), None)
+            found = next((obj for obj in others if key_of(obj) in SESSION.told()), None)
             if found is None:
                 raise SkinError("The skins with faults are hidden, or not in this view layer")
             for obj in context.selected_objects:
                 obj.select_set(False)
             found.select_set(True)
             context.view_layer.objects.active = found
-            return SESSION.faults[key_of(found)]
+            return SESSION.told()[key_of(found)]
 
         return self.attempt(select)
 

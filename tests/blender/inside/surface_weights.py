@@ -23,13 +23,19 @@ def white_table():
 
 def skin(**settings):
     obj = patch(size=2.0, material=black_material())
-    sb.make_skin(obj, thickness=[THICKNESS_MM] * 4, mode="physical", weights="surface", unit_mm=UNIT_MM, **settings)
+    lit = {"mode": "physical", "weights": "surface", **settings}
+    sb.make_skin(obj, thickness=[THICKNESS_MM] * 4, unit_mm=UNIT_MM, **lit)
     return obj
 
 
-def pixels(work, engine="CYCLES"):
+def pixels(work, engine="CYCLES", animation=False):
+    """The picture; of an animation that of its last frame."""
     camera_above(2.0)
     scene = render_settings(SIZE, SIZE, engine)
+    if animation:
+        scene.render.filepath = str(work / "surface_")
+        bpy.ops.render.render(animation=True)
+        return read_exr(work / f"surface_{scene.frame_end:04d}.exr")
     scene.render.filepath = str(work / "surface.exr")
     bpy.ops.render.render(write_still=True)
     return read_exr(scene.render.filepath)
