@@ -88,7 +88,8 @@ class Body:
     def __init__(self, key: BodyKey, tiles: Tiles, threads: int) -> None:
         self.key, self.tiles, self.threads = key, tiles, threads
         self.last_lit: Any = None  #: a skinglow.LitShape, of which the next one takes what did not change
-        self.first_seconds = 0.0  #: that making it ready and its first light took
+        self.first_seconds = 0.0  #: that making it ready and its first light took, up to the full answer
+        self.is_ready = False  #: a full answer was given, so that nothing is made ready any more
         self._shape: Any = None
         self._lock = Lock()
 
@@ -215,8 +216,9 @@ def _solved(shape: Any, body: Body, light: Light, progress: Progress, *, full: b
         **({} if full else COARSE),
     )
     seconds: float | None = time.perf_counter() - started
-    if body.last_lit is None:
+    if not body.is_ready:
         body.first_seconds, seconds = body.first_seconds + seconds, None
+        body.is_ready = full
     body.last_lit = lit
     error = tuple(float(e) for e in lit.report["error"]) if full else ()
     radiance = radiance_of(lit)
