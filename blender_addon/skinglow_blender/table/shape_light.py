@@ -216,9 +216,10 @@ def _solved(shape: Any, body: Body, light: Light, progress: Progress, *, full: b
         **({} if full else COARSE),
     )
     seconds: float | None = time.perf_counter() - started
-    if not body.is_ready:
+    # Coarse answers to a light that is dragged meanwhile are no part of the first light.
+    if body.last_lit is None or (full and not body.is_ready):
         body.first_seconds, seconds = body.first_seconds + seconds, None
-        body.is_ready = full
+    body.is_ready = body.is_ready or full
     body.last_lit = lit
     error = tuple(float(e) for e in lit.report["error"]) if full else ()
     radiance = radiance_of(lit)

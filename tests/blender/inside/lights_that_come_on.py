@@ -33,25 +33,25 @@ def keyed(owner, path, values):
         owner.keyframe_insert(path, frame=frame)
 
 
-def key_nodes(lamp):
-    if lamp.data.node_tree is None:
-        lamp.data.use_nodes = True
-    socket = next(n for n in shader_tree(lamp.data).nodes if n.bl_idname == "ShaderNodeEmission").inputs["Strength"]
+def key_nodes(light):
+    if light.data.node_tree is None:
+        light.data.use_nodes = True
+    socket = next(n for n in shader_tree(light.data).nodes if n.bl_idname == "ShaderNodeEmission").inputs["Strength"]
     keyed(socket, "default_value", (0.0, 0.0, 1.0))
 
 
-def key_visibility(lamp):
-    keyed(lamp, "hide_render", (True, True, False))
-    keyed(lamp, "hide_viewport", (True, True, False))
+def key_visibility(light):
+    keyed(light, "hide_render", (True, True, False))
+    keyed(light, "hide_viewport", (True, True, False))
 
 
-def drive_energy(lamp):
-    lamp.data.driver_add("energy").driver.expression = "80.0 if frame > 2 else 0.0"
+def drive_energy(light):
+    light.data.driver_add("energy").driver.expression = "80.0 if frame > 2 else 0.0"
 
 
 COMING_ON = {
-    "energy": lambda lamp: keyed(lamp.data, "energy", (0.0, 0.0, 80.0)),
-    "color": lambda lamp: keyed(lamp.data, "color", ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 0.6, 0.3))),
+    "energy": lambda light: keyed(light.data, "energy", (0.0, 0.0, 80.0)),
+    "color": lambda light: keyed(light.data, "color", ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 0.6, 0.3))),
     "visibility": key_visibility,
     "nodes": key_nodes,
     "driver": drive_energy,
@@ -87,15 +87,15 @@ def check_lights_that_come_on_in_an_animation(work):
     for how, make in COMING_ON.items():
         for kind in (add_light, spot):
             bpy.ops.wm.read_factory_settings(use_empty=True)
-            lamp = kind(**BELOW)
-            make(lamp)
+            light = kind(**BELOW)
+            make(light)
             bpy.context.scene.frame_set(1)
             obj = skin()
             assert layout(obj)[1:] == ((1, 0, 0) if kind is add_light else (0, 1, 0)), (how, layout(obj))
             shown, faults = in_animation(work)
             assert faults and not any(faults) and sb.health(obj) == [], (how, faults)
             bpy.context.scene.frame_set(3)
-            lamp.update_tag()  # 3.4 shows what comes into the viewport by its animation at the origin
+            light.update_tag()  # 3.4 shows what comes into the viewport by its animation at the origin
             close(shown, expected(core_lights()), what=f"{how} {kind.__name__}")
 
 
@@ -119,7 +119,7 @@ def check_lights_that_only_a_render_shows(work):
     sb.register()
     hidden = bpy.data.collections.new("Hidden")
     bpy.context.scene.collection.children.link(hidden)
-    lamp = add_light(collection=hidden, **BELOW)
+    light = add_light(collection=hidden, **BELOW)
     other = spot(location=(-0.4, 0.3, -1.2))
     other.hide_viewport = hidden.hide_viewport = True
     obj = skin()
@@ -141,7 +141,7 @@ def check_lights_that_only_a_render_shows(work):
     shown = pixels(work)
     shown_layer.layer_collection.children["Hidden"].exclude = False
     close(shown, expected(core_lights()))
-    assert lamp.name in bpy.context.view_layer.objects
+    assert light.name in bpy.context.view_layer.objects
 
 
 def check_no_room_for_lights_that_never_shine(_work):
@@ -170,8 +170,8 @@ def check_no_room_for_lights_that_never_shine(_work):
     sb.update(depsgraph())
     assert layout(obj) == (256, 2, 0, 0)
     for i in range(12):
-        lamp = spot(f"Spot {i}", location=(0.1 * i, 0.0, -2.0))
-        keyed(lamp.data, "energy", (0.0, 0.0, 80.0))
+        light = spot(f"Spot {i}", location=(0.1 * i, 0.0, -2.0))
+        keyed(light.data, "energy", (0.0, 0.0, 80.0))
     sb.update(depsgraph())
     assert layout(obj) == (256, 2, 8, 1), layout(obj)
 
@@ -179,17 +179,17 @@ def check_no_room_for_lights_that_never_shine(_work):
 def check_the_handler_makes_room_for_lights_that_appear(_work):
     """Also where the objects that an edit before it found are known and taken again."""
     sb.register()
-    lamp = add_light(**BELOW)
+    light = add_light(**BELOW)
     obj = skin()
     depsgraph()
     assert layout(obj) == (256, 1, 0, 0)
     new = add_light("New", location=(0.5, 0.4, -1.0))
     new.hide_viewport = True
-    lamp.location.x += 0.1
+    light.location.x += 0.1
     depsgraph()
     assert layout(obj) == (256, 2, 0, 0)
     found = SESSION.light_objects
-    lamp.location.x -= 0.1
+    light.location.x -= 0.1
     depsgraph()
     assert SESSION.light_objects is found, "all objects of the scene were looked at again"
     new = spot("Spot", energy=0.0)
@@ -197,7 +197,7 @@ def check_the_handler_makes_room_for_lights_that_appear(_work):
     assert layout(obj) == (256, 2, 0, 0)
     new.data.keyframe_insert("energy", frame=1)
     depsgraph()
-    lamp.location.x += 0.1
+    light.location.x += 0.1
     depsgraph()
     assert layout(obj) == (256, 2, 1, 0)
 
@@ -244,8 +244,8 @@ def check_what_has_no_nodes_lights_the_skin_as_a_whole(work):
     # A spot has nodes of another kind, which are not there, whatever its power.
     late.hide_render = True
     strong = instanced_light("Strong", **{**BELOW, "energy": 1e4})
-    lamp = strong.instance_collection.objects[0]
-    lamp.data.type, lamp.rotation_euler = "SPOT", (np.pi, 0.1, 0.0)
+    light = strong.instance_collection.objects[0]
+    light.data.type, light.rotation_euler = "SPOT", (np.pi, 0.1, 0.0)
     strong.hide_viewport = True
     assert pixels(work).mean(axis=(0, 1))[0] > 10.0 * both.mean(axis=(0, 1))[0]
     assert "the light of 'Strong in Strong shown' is the same" in str(sb.health(obj)), sb.health(obj)
@@ -257,14 +257,14 @@ def check_what_a_render_told_is_kept(work):
     empty.hide_viewport = True
     obj = skin()
     pixels(work)
-    lamp = add_light("Dim", energy=0.0)
+    light = add_light("Dim", energy=0.0)
     for _ in range(2):
         (fault,) = sb.health(obj)
         assert "Render of frame 1: Patch: its material has too few nodes" in fault.what and "'Late" in fault.what, fault
         assert "show these in the viewport once" in fault.remedy and "Repair" not in str(fault)
         assert "too few nodes" in panel(obj)
         require_health(bpy.context.scene, [1])  # the next render tells it anew
-        lamp.location.x += 1.0
+        light.location.x += 1.0
         assert sb.update(depsgraph()) == []
     empty.hide_viewport = False
     depsgraph()

@@ -11,6 +11,7 @@ import skinglow_blender as sb
 from skinglow_blender.identity import key_of
 from skinglow_blender.live import shape_answers, shape_update
 from skinglow_blender.session import SESSION
+from skinglow_blender.table import shape_light
 
 from inside.scenes import camera_above, depsgraph, render_settings
 from inside.shape_scenes import assert_through, lobe, shape_skin, shown, sun, turn
@@ -76,6 +77,24 @@ def check_the_table_stands_in_and_then_light_is_solved(_work):
         wait_for(obj, "COARSE", "FULL")
         assert_through(obj)
         assert 0.0 < report(obj).milliseconds < 1000.0 * report(obj).first_seconds
+
+
+def check_a_drag_before_the_first_full_answer_is_not_what_the_first_light_took(_work):
+    sun()
+    obj = lobe()
+    shape_skin(obj)
+    depsgraph()
+    state = shape_update.state_of(key_of(obj), "VIEWPORT")
+    body = shape_light.Body(state.key, state.tiles, 1)
+    shape = body.shape()
+
+    def solved(full):
+        before = body.first_seconds
+        answer = shape_light._solved(shape, body, state.light, lambda _fraction: True, full=full)
+        return answer.seconds is None, body.first_seconds > before
+
+    # The first coarse answer and the first full one make the body ready; no other does.
+    assert [solved(full) for full in (False, False, True, True)] == [(True, True), (False, False)] * 2
 
 
 def check_colors_and_sliders_show_at_once(_work):
