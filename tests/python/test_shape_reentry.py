@@ -76,16 +76,27 @@ def test_the_same_call_gives_the_same_answer_though_parts_are_ready_by_then(reen
     assert first.irradiance.max() > 0.0
 
 
-@pytest.mark.parametrize("tissue", [{"melanin_fraction": 0.3}, {"epidermal_thickness_mm": 0.12}], ids=str)
+@pytest.mark.parametrize(
+    "tissue",
+    [
+        {"melanin_fraction": 0.3},
+        {"epidermal_thickness_mm": 0.12},
+        {"melanin_fraction": 0.43, "epidermal_thickness_mm": 0.3},
+    ],
+    ids=str,
+)
 def test_another_skin_has_its_own_epidermis_each_time_that_light_enters(tissue):
     ball = bodies.ball(6.0, 3)
     vertices, triangles, _normals = joined((ball, (0, 0, 0)), (ball, (13, 0, 0)))
+    second = slice(len(ball[0]), None)  # lit by the first one alone
     shape = sg.Shape(vertices, triangles, sg.Tissue())
     sun = [sg.Light("SUN", direction=(1, 0, 0), power=1.0)]
     world = sg.Environment((0.01, 0.02, 0.03))
     other = sg.Tissue(**tissue)
     expected = shape.with_tissue(other).light(sun, world)
     found = shape.light(sun, world).with_tissue(other)
+    mean = shape.with_tissue(other).light(sun).exitance[second].mean(axis=0)
+    np.testing.assert_allclose(shape.light(sun).with_tissue(other).exitance[second].mean(axis=0), mean, rtol=1e-4)
     for name in ("exitance", "transmitted"):
         largest = getattr(expected, name).max()
         np.testing.assert_allclose(getattr(found, name), getattr(expected, name), atol=1e-5 * largest, err_msg=name)

@@ -24,20 +24,21 @@ Lanes each_channel(const glm::dvec3& rgb) {
 void scale_by(SiteLight& light, float scale) {
     for (Lanes& e : light.exitance) e = e * scale;
     for (Lanes& e : light.reflected) e = e * scale;
-    for (SiteLight& pass : light.again) scale_by(pass, scale);
+    for (SiteLight& pass : light.passes) scale_by(pass, scale);
 }
 
 }  // namespace
 
 SiteLight behind_another(const SiteLight& light, const Lanes& ratio) {
-    SiteLight result{light.exitance, light.reflected};
-    Lanes more = Lanes::all(1);
-    for (const SiteLight& pass : light.again) {
-        more = more * ratio;
-        const Lanes change = more - Lanes::all(1);
+    if (light.passes.empty()) return light;
+    // Summed anew: what one pass loses may be all but a millionth of the whole.
+    SiteLight result = {light.passes[0].exitance, light.passes[0].reflected};
+    Lanes factor = Lanes::all(1);
+    for (std::size_t p = 1; p < light.passes.size(); ++p) {
+        factor = factor * ratio;
         for (std::size_t s = 0; s < result.exitance.size(); ++s) {
-            result.exitance[s] += change * pass.exitance[s];
-            result.reflected[s] += change * pass.reflected[s];
+            result.exitance[s] += factor * light.passes[p].exitance[s];
+            result.reflected[s] += factor * light.passes[p].reflected[s];
         }
     }
     return result;
@@ -149,7 +150,7 @@ SiteLight ShapeData::solve_nodes(std::span<Lanes> light, const SolveQuality& qua
     const float scale = brightest > 0 ? brightest : 1.0F;
     for (Lanes& e : light) e = each_lane([&](std::size_t k) { return e[k] / scale; });
     SiteLight result = solver->solve(light, quality.tolerance, quality.reentries, on_the_way());
-    if (!spectrum) result.again.clear();  // no other tissue will ask
+    if (!spectrum) result.passes.clear();  // no other tissue will ask
     scale_by(result, scale);
     return result;
 }

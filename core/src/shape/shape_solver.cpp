@@ -213,8 +213,8 @@ SiteLight ShapeSolver::solve(std::span<const Lanes> light, double tolerance, int
                 result.exitance[s] += exitance[s];
                 result.reflected[s] += reflected[s];
             }
-            result.again.push_back({exitance, reflected});
         }
+        if (reentries > 0) result.passes.push_back({exitance, reflected});
         if (!goes_on) return result;
         const std::vector<Lanes>& from = has_points ? of_vertices : exitance;
         std::vector<Lanes> leaving(entering.size());

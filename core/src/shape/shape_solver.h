@@ -24,8 +24,9 @@ struct SolverOptions {
 struct SiteLight {
     std::vector<Lanes> exitance;
     std::vector<Lanes> reflected;  ///< what a half-space would send out under the irradiance of the site
-    /// What of both is due to light that entered skin again once, twice, ...: it passed what covers the medium as often.
-    std::vector<SiteLight> again = {};
+    /// What both are the sum of: light that entered skin once, twice, ..., and passed what covers the medium as often;
+    /// none where it entered once.
+    std::vector<SiteLight> passes = {};
 };
 
 /// The flesh of a mesh of one medium: from irradiance at its vertices to exitance at its sites, node by node.
