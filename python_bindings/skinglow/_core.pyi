@@ -2,14 +2,15 @@
 
 from collections.abc import Sequence
 from os import PathLike
-from typing import Any, ClassVar, Final, Literal, TypeAlias, TypedDict, overload
+from typing import Any, ClassVar, Final, Literal, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._results import CullingResult, DirectionalTransmittance, LightKind, LightReportEntry
+
 _Array = NDArray[np.float64]
 _Rgb = tuple[float, float, float]
-_LightKind = Literal["POINT", "SUN", "SPOT", "AREA"]
 _Incidence = Literal["normal", "diffuse"] | float  # a number: the cosine to the normal
 
 __version__: Final[str]
@@ -19,7 +20,7 @@ __version__: Final[str]
 class Light:
     def __init__(
         self,
-        kind: _LightKind = "POINT",
+        kind: LightKind = "POINT",
         color: ArrayLike = (1.0, 1.0, 1.0),
         position: ArrayLike = (0.0, 0.0, 0.0),
         direction: ArrayLike = (0.0, 0.0, -1.0),
@@ -40,7 +41,7 @@ class Light:
         spread: float = 3.141592653589793,
     ) -> None: ...
     @property
-    def kind(self) -> _LightKind: ...
+    def kind(self) -> LightKind: ...
     @property
     def color(self) -> _Array: ...
     @property
@@ -144,11 +145,6 @@ class SlabResult:
     @property
     def absorbed(self) -> _Array: ...
 
-class _DirectionalTransmittance(TypedDict):
-    mu: _Array
-    weight: _Array
-    transmittance: _Array
-
 def slab(
     layers: Sequence[Layer],
     incidence: _Incidence = "normal",
@@ -158,7 +154,7 @@ def slab(
 ) -> SlabResult: ...
 def directional_transmittance(
     layers: Sequence[Layer], n_above: float = 1.0, n_below: float = 1.0, streams: int = 16
-) -> _DirectionalTransmittance: ...
+) -> DirectionalTransmittance: ...
 
 class ThicknessCurve:
     def __init__(
@@ -349,44 +345,11 @@ def legacy_sun_power_factor(angle: float) -> float: ...
 
 # Choice of lights and what each does (bind_light_choice.cpp)
 
-class _DroppedLights(TypedDict):
-    lights: list[int]
-    reason: Literal["off", "unreachable", "negligible"]
-    bound: _Array
-
-class _CullingResult(TypedDict):
-    kept: list[int]
-    dropped: list[_DroppedLights]
-    bound: _Array
-
-class _LightReportEntry(TypedDict):
-    index: int
-    name: str
-    kind: _LightKind
-    distance: float
-    axis_angle: float
-    normal_angle: float | None
-    weight: _Array
-    share: float
-    state: Literal[
-        "shines",
-        "hidden",
-        "zero power",
-        "black",
-        "no width",
-        "occluded",
-        "culled",
-        "behind light",
-        "outside cone",
-        "behind",
-        "too weak",
-    ]
-
 class PreparedRig:
     def __init__(self, lights: _Lights) -> None: ...
     @property
     def lights(self) -> list[Light]: ...
-    def cull(self, box_min: ArrayLike, box_max: ArrayLike, tolerance: float) -> _CullingResult: ...
+    def cull(self, box_min: ArrayLike, box_max: ArrayLike, tolerance: float) -> CullingResult: ...
     def __len__(self) -> int: ...
 
 def merge_identical(lights: _Lights) -> list[Light]: ...
@@ -403,7 +366,7 @@ def light_report(
     normal: ArrayLike | None = None,
     occluded: Sequence[bool] = [],
     kept: Sequence[int] | None = None,
-) -> list[_LightReportEntry]: ...
+) -> list[LightReportEntry]: ...
 
 # Light rigs from files (bind_rig.cpp)
 

@@ -1,11 +1,13 @@
 """The stubs and the list of public names say what the compiled modules hold."""
 
 import ast
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
 import pytest
 import skinglow._core as core
+from skinglow import _results
 from skinglow._rays_loader import load_rays
 
 PACKAGE = Path(__file__).parents[2] / "python_bindings" / "skinglow"
@@ -188,3 +190,20 @@ def test_stub_of_the_rays_is_that_of_the_module() -> None:
         for key, value in made.items():
             if type(value).__name__ in METHODS and key != "__len__":
                 assert parameters(methods[key][0]) == parameters(bound_signature(value)), key
+
+
+@pytest.mark.parametrize(
+    ("made", "described"),
+    [
+        (lambda: core.light_report([core.Light()], (0, 0, 1))[0], _results.LightReportEntry),
+        (lambda: core.PreparedRig([core.Light(power=0.0)]).cull((0, 0, 1), (1, 1, 2), 0.0), _results.CullingResult),
+        (
+            lambda: core.PreparedRig([core.Light(power=0.0)]).cull((0, 0, 1), (1, 1, 2), 0.0)["dropped"][0],
+            _results.DroppedLights,
+        ),
+        (lambda: core.directional_transmittance([core.Layer(1.0, 1.0, 0.0)]), _results.DirectionalTransmittance),
+    ],
+    ids=lambda value: getattr(value, "__name__", ""),
+)
+def test_dictionaries_are_as_described(made: Callable[[], dict], described: type) -> None:
+    assert set(made()) == set(described.__annotations__)
