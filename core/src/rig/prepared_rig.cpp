@@ -35,18 +35,19 @@ const std::vector<Light>& PreparedRig::lights() const {
 
 namespace {
 
-/// What is equal of lights that shine alike, but for their color and power.
+/// What is equal of lights that shine alike, but for their color and power. Vectors of a shape are directions,
+/// whose length says nothing.
 std::vector<double> geometry_of(const Light& light) {
     std::vector<double> key{static_cast<double>(light.kind())};
     const auto add = [&](const glm::dvec3& v) { key.insert(key.end(), {v.x, v.y, v.z}); };
     if (light.kind() != LightKind::sun) add(light.position());
-    if (light.kind() != LightKind::point) add(light.direction());
+    if (light.kind() != LightKind::point) add(unit(light.direction()));
     std::visit(
         [&](const auto& shape) {
             for_each_field_of(shape, [&](const auto& field, const auto& owner) {
                 const auto& value = owner.*field.member;
                 if constexpr (requires { add(value); }) {
-                    add(value);
+                    add(unit(value));
                 } else {
                     key.push_back(static_cast<double>(value));
                 }

@@ -256,9 +256,11 @@ TEST(LightCulling, MergesByWhatTheKindHas) {
     points[3].soft_falloff = false;
     EXPECT_EQ(merge_identical(made(points)).size(), 3U);
 
-    std::vector<FlatLight> areas(3);
+    std::vector<FlatLight> areas(4);
     for (FlatLight& area : areas) area.kind = LightKind::area;
     areas[1].area_shape = AreaShape::ellipse;
     areas[2].tangent = {0, 1, 0};
+    areas[3].direction *= 3.0;  // no direction has a length
+    areas[3].tangent *= 0.5;
     EXPECT_EQ(merge_identical(made(areas)).size(), 3U);
 }
