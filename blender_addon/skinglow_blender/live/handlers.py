@@ -12,6 +12,7 @@ from ..read import world_image
 from ..read.file_skins import skins_of_file
 from ..session import SESSION
 from ..show.group_following import follow_materials, merge_copies, remove_orphans
+from ..show.image_pairs import keep_in_file
 from ..show.lut_image import ROWS, skin_groups
 from ..show.mask import mask_groups, store_masks
 from ..show.tile_image import TILES
@@ -182,8 +183,8 @@ def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
 def on_save(_first: Any, _second: Any) -> None:  # noqa: ANN401
     """Called before saving: generated pixels are not saved unless packed."""
     for image in {i for group in skin_groups() for kind in (ROWS, TILES) for i in kind.all_of(group)}:
-        if image.library is None and image.is_dirty:
-            image.pack()
+        if image.library is None and image.size[0]:
+            keep_in_file(image)
 
 
 def show_viewport() -> None:

@@ -172,6 +172,7 @@ def _update_group(
                 rebuilt.append(Rebuilt(skin.name, mode, changed_from[0], signature, skin.key))
         _set_row_property(obj, skin, atlas, row)
     _follow_shapes(group, members, atlas, kept, reading, faults)
+    atlas.look_for_loss(group)
     if atlas.is_dirty:
         atlas.write(group)
     if mode == "RENDER" or not SESSION.rendering:
