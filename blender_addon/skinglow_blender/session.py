@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from .live.newest_wins import NewestWins
     from .live.shape_update import ShapeState
     from .read.known_objects import Known
+    from .read.possible_lights import PlacedLight
     from .read.scene_reading import SceneReading
     from .read.shown_mesh import ShownMeshes
     from .show.lut_image import Atlas
@@ -58,7 +59,11 @@ class Session:
         #: Address of a depsgraph to the objects of it that matter, as of its last reading.
         self.known: dict[int, Known] = {}
         #: The light objects of a scene that may shine in a render, and what they were found by (possible_lights.py).
-        self.light_objects: tuple[tuple, list[bpy.types.Object]] | None = None
+        self.light_objects: tuple[tuple, list[PlacedLight]] | None = None
+        #: The skins of a scene that are hidden and may be rendered, and what they were found by; skin to what its nodes
+        #: were made ready for (hidden_skins.py).
+        self.hidden_skins: tuple[tuple, list[bpy.types.Object]] | None = None
+        self.made_ready: dict[str, tuple] = {}
         #: Whether the file was seen to have no skin; None: not looked at since data was added.
         self.has_none: bool | None = None
         #: Whether a skin may have become one whose mesh lacks tiles since all were looked at.
@@ -130,7 +135,8 @@ class Session:
         self.marks.clear()
         self.base_images.clear()
         self.known.clear()
-        self.light_objects = None
+        self.light_objects = self.hidden_skins = None
+        self.made_ready.clear()
         self.material_groups.clear()
         self.reading = self.has_none = None
 

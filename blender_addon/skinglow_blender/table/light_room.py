@@ -56,15 +56,28 @@ def layout_with_room(skin: Skin, table: "Table", possible: list[SceneLight], wor
     possible  read.possible_lights.lights_that_may_shine
     """
     plain = table.lighting.plain_terms
-    profiled = len(table.lighting.terms) - plain
-    number = plain + profiled
-    for light in possible:
-        if light.object_name in table.near_lights or not light.lights(skin.key):
-            continue
-        more = _terms_alone(light.signature, skin.surface.min, skin.surface.max)
-        plain, profiled, number = plain + more[0], profiled + more[1], number + 1
+    terms = plain, len(table.lighting.terms) - plain
+    return _with_terms(skin, terms, [p for p in possible if p.object_name not in table.near_lights], world_may_shine)
+
+
+def layout_of_lights(skin: Skin, lights: list[SceneLight], world: bool) -> Layout:
+    """A layout that these lights fit into, whatever their power and color; quick, and larger than it need be.
+
+    world  whether there is light of the world
+    """
+    return _with_terms(skin, (0, 0), lights, world)
+
+
+def _with_terms(skin: Skin, terms: tuple[int, int], lights: list[SceneLight], world: bool) -> Layout:
+    """The layout for so many terms without and with a profile, those of other lights, and the world."""
+    plain, profiled = terms
+    number, before = plain + profiled, plain + profiled
+    for light in lights:
+        if light.lights(skin.key):
+            more = _terms_alone(light.signature, skin.surface.min, skin.surface.max)
+            plain, profiled, number = plain + more[0], profiled + more[1], number + 1
     # Those beyond what has terms are in the polynomial.
-    world = world_may_shine or (bool(possible) and number > MAX_TERMS)
+    world = world or (number > before and number > MAX_TERMS)
     return layout_with(skin.base[1], min(plain, MAX_TERMS), min(profiled, MAX_TERMS), world)
 
 

@@ -202,13 +202,21 @@ def check_the_handler_makes_room_for_lights_that_appear(_work):
     assert layout(obj) == (256, 2, 1, 0)
 
 
-def instanced_light(name, **settings):
-    """A light of a collection that an empty shows, which no reading of light objects knows of; returns the empty."""
+def light_of_nodes(name, **settings):
+    """A light of a collection that geometry nodes instance, which no look at objects finds; returns their object."""
     collection = bpy.data.collections.new(name)
     add_light(name, collection=collection, **settings)
-    empty = link(bpy.data.objects.new(f"{name} shown", None))
-    empty.instance_type, empty.instance_collection = "COLLECTION", collection
-    return empty
+    tree = bpy.data.node_groups.new(name, "GeometryNodeTree")
+    if hasattr(tree, "interface"):
+        tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    else:
+        tree.outputs.new("NodeSocketGeometry", "Geometry")
+    info, end = tree.nodes.new("GeometryNodeCollectionInfo"), tree.nodes.new("NodeGroupOutput")
+    info.inputs["Collection"].default_value = collection
+    tree.links.new(info.outputs[0], end.inputs[0])
+    obj = link(bpy.data.objects.new(f"{name} shown", bpy.data.meshes.new(name)))
+    obj.modifiers.new("Nodes", "NODES").node_group = tree
+    return obj
 
 
 def panel(obj):
@@ -220,7 +228,7 @@ def panel(obj):
 def check_what_has_no_nodes_lights_the_skin_as_a_whole(work):
     """As Per Object does, beside the brightest ones, which take the nodes that there are."""
     sb.register()
-    late = instanced_light("Late", **BELOW)
+    late = light_of_nodes("Late", **BELOW)
     obj = skin(weights="object")
     late_as_a_whole = pixels(work)
     late.hide_viewport = True
@@ -243,8 +251,8 @@ def check_what_has_no_nodes_lights_the_skin_as_a_whole(work):
     assert "the light of 'Key' is the same all over it" in str(sb.health(obj))
     # A spot has nodes of another kind, which are not there, whatever its power.
     late.hide_render = True
-    strong = instanced_light("Strong", **{**BELOW, "energy": 1e4})
-    light = strong.instance_collection.objects[0]
+    strong = light_of_nodes("Strong", **{**BELOW, "energy": 1e4})
+    light = bpy.data.objects["Strong"]
     light.data.type, light.rotation_euler = "SPOT", (np.pi, 0.1, 0.0)
     strong.hide_viewport = True
     assert pixels(work).mean(axis=(0, 1))[0] > 10.0 * both.mean(axis=(0, 1))[0]
@@ -253,7 +261,7 @@ def check_what_has_no_nodes_lights_the_skin_as_a_whole(work):
 
 def check_what_a_render_told_is_kept(work):
     sb.register()
-    empty = instanced_light("Late", **BELOW)
+    empty = light_of_nodes("Late", **BELOW)
     empty.hide_viewport = True
     obj = skin()
     pixels(work)

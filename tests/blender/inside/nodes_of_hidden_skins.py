@@ -121,6 +121,8 @@ def check_nodes_of_a_library_for_too_few_lights(work):
         refused(sb.SkinError, "library_skin.blend", sb.update, depsgraph())
         shown = pixels(work)
         close(shown, expected(core_lights()), 0.4)
+        notes = {row["name"]: row["note"] for row in sb.light_report(obj, depsgraph())}
+        assert "the same all over" in notes.pop("Second") and not any(notes.values()), notes
         (fault,) = sb.health(obj)
         text = str(fault)
         assert "rendering" not in text and "Repair" not in text and "'Second'" in text, text
@@ -140,3 +142,68 @@ def check_nodes_of_a_library_for_too_few_lights(work):
     sb.update(depsgraph())
     assert sb.health(obj) == []
     close(pixels(work), expected(core_lights()))
+
+
+def check_lights_that_come_while_it_is_hidden(work):
+    """It was made and shown; what is added to the scene meanwhile lights it in renders as if it had been seen."""
+    sb.register()
+    for hide in HIDDEN:
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        light = add_light(**BELOW)
+        obj = skin()
+        depsgraph()
+        hide(obj)
+        depsgraph()
+        for i in range(3):
+            add_light(f"Light {i}", location=(0.3 * i - 0.3, -0.2, -1.2 - 0.2 * i), energy=60.0)
+        depsgraph()
+        shown = pixels(work)
+        assert SESSION.render_faults == {} and layout(obj)[1:] == (4, 0, 0), (hide.__name__, layout(obj))
+        close(shown, expected(core_lights()), what=hide.__name__)
+        found = SESSION.hidden_skins
+        light.location.x += 0.1
+        depsgraph()
+        assert SESSION.hidden_skins is found, "all objects of the scene were looked at again"
+        close(pixels(work), expected(core_lights()), what=hide.__name__)
+        bpy.data.objects.remove(obj)
+        light.location.x += 0.1
+        assert sb.update(depsgraph()) == []
+
+
+def check_lighting_that_is_chosen_while_it_is_hidden(work):
+    sb.register()
+    for weights in ("surface", "shape"):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        obj, settings = body(weights)
+        shape_skin(obj, **settings)
+        wanted = pixels(work)
+        for hide in HIDDEN:
+            bpy.ops.wm.read_factory_settings(use_empty=True)
+            obj, settings = body(weights)
+            shape_skin(obj, **{**settings, "weights": "object"})
+            depsgraph()
+            hide(obj)
+            depsgraph()
+            obj.skinglow.weights = weights.upper()
+            # Any edit that Blender reports.
+            bpy.context.scene.tool_settings.use_snap = True
+            add_light("Dark", energy=0.0)
+            depsgraph()
+            shown = pixels(work)
+            assert SESSION.render_faults == {}, SESSION.render_faults
+            np.testing.assert_allclose(shown, wanted, rtol=1e-3, atol=1e-5 * wanted.max(), err_msg=hide.__name__)
+
+
+def check_no_nodes_for_skins_that_no_render_shows(_work):
+    sb.register()
+    add_light(**BELOW)
+    obj = skin()
+    depsgraph()
+    obj.hide_viewport = obj.hide_render = True
+    add_light("Second", location=(-0.5, 0.4, -1.0), energy=20.0)
+    depsgraph()
+    assert layout(obj) == (256, 1, 0, 0)
+    # Until a render may.
+    obj.hide_render = False
+    sb.update(depsgraph())
+    assert layout(obj) == (256, 2, 0, 0)
