@@ -3,15 +3,16 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+import bpy
+
 from .identity import key_of
 
 if TYPE_CHECKING:
-    import bpy
-
     from .commands.freezing import Freezing
     from .commands.material_health import Fault
     from .live.newest_wins import NewestWins
@@ -48,7 +49,10 @@ class Session:
         #: Frozen skin to the frame at which the viewport was last looked at, and what its light depends on there.
         self.marks: dict[str, tuple[int, str]] = {}
         self.rendering = False
+        self.is_background = bpy.app.background
         self.render_frame: float | None = None
+        #: Whether nodes or images changed while rendering, so that the viewport's table has to be laid out anew.
+        self.built_while_rendering = False
         #: Renders that wait in a thread for light through shapes.
         self.waiting = 0
         #: Whether the user ended what the last update waited for, and the signals that said so.
@@ -103,6 +107,10 @@ class Session:
         #: Light that a window is freezing to images, frame by frame.
         self.freezing: Freezing | None = None
 
+    def is_layout_fixed(self) -> bool:
+        """Whether nodes and images have to stay as they are: while a render runs beside a window."""
+        return self.rendering and not (self.is_background and threading.current_thread() is threading.main_thread())
+
     def told(self) -> dict[str, str]:
         """What is wrong now, and what was in the last render, by skin."""
         return {**self.render_faults, **self.faults}
@@ -147,6 +155,7 @@ class Session:
             "freezing",
             "waiting",
             "interrupted",
+            "is_background",
             "signals",
             "updates",
             "undone_graphs",

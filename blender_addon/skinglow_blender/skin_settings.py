@@ -34,8 +34,8 @@ def _lit_otherwise(settings: "SkinSettings", context: bpy.types.Context) -> None
     _changed(settings, context)
 
 
-#: Options of what decides the nodes and images of a skin, of which none can be added while rendering: keys of it would
-#: be shown by some frames of an animation alone.
+#: Options of what decides the nodes and images of a skin, of which none can be added while a window renders:
+#: frames would show what the viewport had when the render began.
 NOT_ANIMATED: set[str] = set()
 
 

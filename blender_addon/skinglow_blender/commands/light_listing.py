@@ -19,6 +19,8 @@ from .skin import skin_settings_of, table_of
 
 #: Note of what the nodes of a skin that is lit per pixel, as a library's, have no room for.
 NO_NODES = "the skin has no nodes for it: the same all over the skin"
+#: Of a large light for whose parts there is no room.
+FEW_NODES = "the skin has too few nodes for its size: coarser than it should be"
 
 
 def light_report(
@@ -92,6 +94,8 @@ def _row(skin: Skin, scene_light: SceneLight, table: Table | None) -> dict[str, 
         notes.append(f"more than {MAX_TERMS} lights: treated as distant")
     if table is not None and scene_light.name in table.crowded_out:
         notes.append(NO_NODES)
+    if table is not None and scene_light.name in table.coarse:
+        notes.append(FEW_NODES)
     row = _entry(scene_light.name, scene_light.signature[1], scene_light.unlit_reason, "; ".join(filter(None, notes)))
     row["visible"], row["object"] = visible, key_of(scene_light.shown_by)
     if not row["reason"] and not scene_light.lights(skin.key):

@@ -24,7 +24,14 @@ from .hidden_layers import is_of_before, remember_hidden
 from .live_update import update_scene
 from .relevant_updates import changes_of
 from .shape_tiles import store_missing_tiles
-from .windows import follow_windows, is_shown, stop_following_windows, update_shown, update_windows_soon
+from .windows import (
+    follow_windows,
+    is_shown,
+    shown_layers,
+    stop_following_windows,
+    update_shown,
+    update_windows_soon,
+)
 
 
 @guarded
@@ -121,6 +128,11 @@ def on_render_end(_scene: bpy.types.Scene, _unused: None) -> None:
     SESSION.render_frame = None
     occlusion.forget("RENDER")
     show_viewport()
+    if SESSION.built_while_rendering:
+        SESSION.built_while_rendering = False
+        for layer in shown_layers():
+            if layer is not None and layer.depsgraph is not None:
+                update_shown(layer.depsgraph)
 
 
 @guarded

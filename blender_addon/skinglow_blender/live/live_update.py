@@ -27,7 +27,7 @@ from . import shape_answers, shape_update, waiting
 from .frozen_update import follow_frozen, mark_of
 from .hidden_layers import evaluate_anew
 from .hidden_skins import to_make_ready
-from .needed_nodes import crowding, fit_nodes, is_fixed, make_room
+from .needed_nodes import crowding, fit_nodes, is_cut_down, is_fixed, make_room
 from .rebuilt import Rebuilt
 from .shape_tiles import hide_tiles, write_tiles
 
@@ -240,7 +240,7 @@ def _compute(
             signature = signature._replace(mesh=shape_update.mesh_version(skin.key, atlas.mode))
         table = atlas.tables.get(skin.key)
         # Once nodes can be added, what had no room gets it.
-        is_cut = table is not None and skin.surface is not None and (table.lighting is None or table.crowded_out)
+        is_cut = table is not None and skin.surface is not None and (table.lighting is None or is_cut_down(table))
         if atlas.signatures.get(skin.key) != signature or (is_cut and not fixed):
             try:
                 table = compute_table(skin, reading.lights, reading.world, room)
@@ -248,7 +248,7 @@ def _compute(
             except (SkinError, ValueError) as error:
                 faults[skin.key] = str(error)
                 continue
-        if table.crowded_out:
+        if is_cut_down(table):
             faults[skin.key] = crowding(obj.skinglow.group, skin, table)
 
 

@@ -265,7 +265,7 @@ class PairContents:
         """Puts the up-to-date image into the nodes, unless it is there already."""
         image = self.images.pair(group, self.mode)[self.front]
         if self.mode == "RENDER" and self.images.shown(group) != image:
-            _keep_animated()
+            keep_animated()
         self.images.show(group, image)
         self.was_shown = True
 
@@ -274,7 +274,7 @@ def _addresses(group: bpy.types.NodeTree, pair: tuple[bpy.types.Image, bpy.types
     return tuple(data.as_pointer() for data in (group, *pair))
 
 
-def _keep_animated() -> None:
+def keep_animated() -> None:
     """Has Blender evaluate the animation of materials again.
 
     A change of their nodes copies them anew, with the values of the frame that the viewport shows.

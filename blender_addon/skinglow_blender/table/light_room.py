@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Lights and nodes that do not agree: how many nodes a skin may need, and what is shown where there are too few."""
 
+from collections import Counter
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,6 +17,10 @@ if TYPE_CHECKING:
 
 #: The capacity of nodes that read plain rows: they light nothing per pixel.
 NO_ROOM = Layout(0, 0, 0, False)
+
+
+#: Relative difference of irradiance from which a light with fewer terms than it should have is told.
+COARSE = 0.05
 
 
 class Fitted(NamedTuple):
@@ -48,6 +53,22 @@ def fit_lights(
                 lighting, near = found, wanted
                 break
     return Fitted(lighting, near, sorted(set(range(len(lights))) - set(near)))
+
+
+def coarse_lights(lighting: Any, wanted: Any, box: tuple[tuple, tuple]) -> list[int]:  # noqa: ANN401
+    """Indices of the lights that have fewer terms than they should, where that can be seen about the skin's bounds.
+
+    lighting, wanted  skinglow.SurfaceLighting as it fits the nodes, and as it should be
+    """
+    low, high = np.array(box)
+    corners = low + (high - low) * (np.indices((3, 3, 3)).reshape(3, -1).T / 2.0)
+    normals = np.concatenate([np.eye(3), -np.eye(3)])
+    at = np.repeat(corners, len(normals), axis=0), np.tile(normals, (len(corners), 1))
+    shown, right = lighting.irradiance(*at), wanted.irradiance(*at)
+    if np.abs(shown - right).max() <= COARSE * np.abs(right).max():
+        return []
+    terms, wanted_terms = Counter(lighting.lights_of_terms), Counter(wanted.lights_of_terms)
+    return sorted(i for i in wanted_terms if terms[i] < wanted_terms[i])
 
 
 def layout_with_room(skin: Skin, table: "Table", possible: list[SceneLight], world_may_shine: bool) -> Layout:

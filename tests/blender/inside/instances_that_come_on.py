@@ -3,7 +3,7 @@
 import bpy
 import skinglow_blender as sb
 
-from inside.lights_that_come_on import BELOW, close, in_animation, key_visibility, keyed, layout
+from inside.lights_that_come_on import BELOW, as_beside_a_window, close, in_animation, key_visibility, keyed, layout
 from inside.scenes import add_light, depsgraph, link
 from inside.surface_weights import core_lights, expected, skin
 
@@ -17,6 +17,7 @@ def instanced_light(name, **settings):
     return empty
 
 
+@as_beside_a_window()
 def check_instances_of_lights(work):
     """Those of collections that objects of the scene show: off in the viewport, or dark at first."""
     sb.register()

@@ -1,5 +1,7 @@
 """Light per pixel that only a render shows: there are nodes for it before, or it lights the skin as a whole."""
 
+from contextlib import contextmanager
+
 import bpy
 import numpy as np
 import skinglow_blender as sb
@@ -15,6 +17,16 @@ from inside.surface_weights import core_lights, expected, pixels, skin
 #: Below the patch, so on its far side.
 BELOW = {"location": (0.3, -0.2, -1.5), "energy": 80.0, "color": (1.0, 0.6, 0.3)}
 FRAMES = (1, 2, 3)
+
+
+@contextmanager
+def as_beside_a_window():
+    """Renders may build no nodes, as where Blender has a window; also a decorator."""
+    SESSION.is_background = False
+    try:
+        yield
+    finally:
+        SESSION.is_background = True
 
 
 def layout(obj):
@@ -82,6 +94,7 @@ def in_animation(work):
         bpy.app.handlers.frame_change_post.remove(look)
 
 
+@as_beside_a_window()
 def check_lights_that_come_on_in_an_animation(work):
     sb.register()
     for how, make in COMING_ON.items():
@@ -99,6 +112,7 @@ def check_lights_that_come_on_in_an_animation(work):
             close(shown, expected(core_lights()), what=f"{how} {kind.__name__}")
 
 
+@as_beside_a_window()
 def check_a_world_that_comes_on_in_an_animation(work):
     sb.register()
     world = bpy.context.scene.world = bpy.data.worlds.new("World")
@@ -115,6 +129,7 @@ def check_a_world_that_comes_on_in_an_animation(work):
     close(shown, pixels(work), 1e-3)
 
 
+@as_beside_a_window()
 def check_lights_that_only_a_render_shows(work):
     sb.register()
     hidden = bpy.data.collections.new("Hidden")
@@ -144,6 +159,7 @@ def check_lights_that_only_a_render_shows(work):
     assert light.name in bpy.context.view_layer.objects
 
 
+@as_beside_a_window()
 def check_no_room_for_lights_that_never_shine(_work):
     sb.register()
     off = bpy.data.collections.new("Off")
@@ -176,6 +192,7 @@ def check_no_room_for_lights_that_never_shine(_work):
     assert layout(obj) == (256, 2, 8, 1), layout(obj)
 
 
+@as_beside_a_window()
 def check_the_handler_makes_room_for_lights_that_appear(_work):
     """Also where the objects that an edit before it found are known and taken again."""
     sb.register()
@@ -225,6 +242,7 @@ def panel(obj):
     return " ".join(box.texts)
 
 
+@as_beside_a_window()
 def check_what_has_no_nodes_lights_the_skin_as_a_whole(work):
     """As Per Object does, beside the brightest ones, which take the nodes that there are."""
     sb.register()
@@ -259,6 +277,7 @@ def check_what_has_no_nodes_lights_the_skin_as_a_whole(work):
     assert "the light of 'Strong in Strong shown' is the same" in str(sb.health(obj)), sb.health(obj)
 
 
+@as_beside_a_window()
 def check_what_a_render_told_is_kept(work):
     sb.register()
     empty = light_of_nodes("Late", **BELOW)

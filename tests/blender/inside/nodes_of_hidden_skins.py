@@ -6,7 +6,7 @@ import skinglow_blender as sb
 from skinglow_blender.session import SESSION
 
 from inside.bad_input import refused
-from inside.lights_that_come_on import BELOW, close, layout, panel
+from inside.lights_that_come_on import BELOW, as_beside_a_window, close, layout, panel
 from inside.scenes import add_light, black_material, depsgraph, link
 from inside.shape_scenes import shape_skin, sun, thin_body
 from inside.surface_weights import core_lights, expected, pixels, skin
@@ -44,6 +44,7 @@ def body(weights):
     return thin_body(material=black_material()), {"weights": weights, "mode": "physical"}
 
 
+@as_beside_a_window()
 def check_made_while_it_is_hidden(work):
     sb.register()
     for weights in ("object", "surface", "shape"):
@@ -70,6 +71,7 @@ def check_made_while_it_is_hidden(work):
             assert again.max() > 0.5 * wanted.max() and not SESSION.render_faults, (weights, hide.__name__)
 
 
+@as_beside_a_window()
 def check_made_anew_while_it_is_hidden(work):
     """It was lit in another way while it was shown, and other skins have the same material."""
     sb.register()
@@ -90,6 +92,7 @@ def check_made_anew_while_it_is_hidden(work):
         np.testing.assert_allclose(pixels(work), hidden, rtol=1e-3, atol=1e-5 * hidden.max())
 
 
+@as_beside_a_window()
 def check_a_hidden_sheet_is_lit_per_pixel(work):
     sb.register()
     add_light(**BELOW)
@@ -100,6 +103,7 @@ def check_a_hidden_sheet_is_lit_per_pixel(work):
     close(pixels(work), expected(core_lights()))
 
 
+@as_beside_a_window()
 def check_nodes_of_a_library_for_too_few_lights(work):
     """They show the others as Per Object does; the fault names the file, and what can be done there."""
     sb.register()
@@ -144,6 +148,7 @@ def check_nodes_of_a_library_for_too_few_lights(work):
     close(pixels(work), expected(core_lights()))
 
 
+@as_beside_a_window()
 def check_lights_that_come_while_it_is_hidden(work):
     """It was made and shown; what is added to the scene meanwhile lights it in renders as if it had been seen."""
     sb.register()
@@ -170,6 +175,7 @@ def check_lights_that_come_while_it_is_hidden(work):
         assert sb.update(depsgraph()) == []
 
 
+@as_beside_a_window()
 def check_lighting_that_is_chosen_while_it_is_hidden(work):
     sb.register()
     for weights in ("surface", "shape"):
@@ -194,6 +200,7 @@ def check_lighting_that_is_chosen_while_it_is_hidden(work):
             np.testing.assert_allclose(shown, wanted, rtol=1e-3, atol=1e-5 * wanted.max(), err_msg=hide.__name__)
 
 
+@as_beside_a_window()
 def check_no_nodes_for_skins_that_no_render_shows(_work):
     sb.register()
     add_light(**BELOW)
