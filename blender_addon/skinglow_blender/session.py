@@ -64,10 +64,10 @@ class Session:
         self.known: dict[int, Known] = {}
         #: The light objects of a scene that may shine in a render, and what they were found by (possible_lights.py).
         self.light_objects: tuple[tuple, list[PlacedLight]] | None = None
-        #: The skins of a scene that are hidden and may be rendered, and what they were found by; skin to what its nodes
-        #: were made ready for (hidden_skins.py).
-        self.hidden_skins: tuple[tuple, list[bpy.types.Object]] | None = None
-        self.made_ready: dict[str, tuple] = {}
+        #: The skins of a scene that a render may show, and what they were found by; of those that are hidden, what
+        #: their nodes were made ready for (hidden_skins.py).
+        self.scene_skins: tuple[tuple, list[bpy.types.Object]] | None = None
+        self.made_ready: dict[str, list] = {}
         #: Whether the file was seen to have no skin; None: not looked at since data was added.
         self.has_none: bool | None = None
         #: Whether a skin may have become one whose mesh lacks tiles since all were looked at.
@@ -143,7 +143,7 @@ class Session:
         self.marks.clear()
         self.base_images.clear()
         self.known.clear()
-        self.light_objects = self.hidden_skins = None
+        self.light_objects = self.scene_skins = None
         self.made_ready.clear()
         self.material_groups.clear()
         self.reading = self.has_none = None

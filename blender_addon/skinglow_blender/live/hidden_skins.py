@@ -3,10 +3,13 @@
 while rendering.
 """
 
+from typing import NamedTuple
+
 import bpy
 
 from ..identity import key_of
 from ..read.possible_lights import has_animation, lights_that_may_shine, rendered_collections, world_may_shine
+from ..read.scene_lights import SceneLight
 from ..read.scene_reading import SceneReading, lit_per_pixel, read_skin
 from ..session import SESSION
 from ..show.frozen import is_frozen
@@ -26,52 +29,58 @@ def to_make_ready(depsgraph: bpy.types.Depsgraph, reading: SceneReading, seen: s
     try:
         return _to_make_ready(depsgraph, reading, seen)
     except ReferenceError:  # one was deleted, and another one made
-        SESSION.hidden_skins = None
+        SESSION.scene_skins = None
         return _to_make_ready(depsgraph, reading, seen)
 
 
 def _to_make_ready(depsgraph: bpy.types.Depsgraph, reading: SceneReading, seen: set[str]) -> list[bpy.types.Object]:
-    found = []
-    for obj in _hidden_skins(depsgraph.scene, reading, seen):
+    found, light = [], None
+    for obj in _scene_skins(depsgraph.scene):
         settings, group = obj.skinglow, obj.skinglow.group
         if key_of(obj) in seen or not settings.enabled or (obj.hide_render and not has_animation(obj)):
             continue
         if group is None or group.library is not None or is_frozen(group):
             continue
-        needed = key_of(group), settings.row, _needed_nodes(obj, depsgraph, reading)
+        needed = [key_of(group), settings.row, settings.size]
+        if settings.mode == "PHYSICAL" and settings.weights != "OBJECT":
+            tiles = rows_of(obj.data) if settings.weights == "SHAPE" else 0
+            if not tiles:
+                light = light or _Light.of(depsgraph, reading)
+            needed += [tiles, _layout(obj, light) if not tiles else None]
         if SESSION.made_ready.get(key_of(obj)) != needed:
             SESSION.made_ready[key_of(obj)] = needed
             found.append(obj)
     return found
 
 
-def _hidden_skins(scene: bpy.types.Scene, reading: SceneReading, seen: set[str]) -> list[bpy.types.Object]:
-    """Those of the scene that are in some collection that is rendered, looked for again where that may have changed."""
+class _Light(NamedTuple):
+    """What may light the skins of a scene in a render."""
+
+    lights: list[SceneLight]
+    world: bool  #: whether there is light of the world
+
+    @classmethod
+    def of(cls, depsgraph: bpy.types.Depsgraph, reading: SceneReading) -> "_Light":
+        lights = [light for light in reading.lights if not light.unlit_reason]
+        names = {light.object_name for light in lights}
+        possible = lights_that_may_shine(depsgraph, reading.lights, reading.known)
+        lights += [light for light in possible if light.object_name not in names]
+        return cls(lights, any(world_irradiance(reading.world)) or world_may_shine(depsgraph.scene))
+
+
+def _scene_skins(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """Those in collections that are rendered, looked for again where objects were added to these or taken out."""
     collections = list(dict.fromkeys(rendered_collections(scene)))
-    mark = key_of(scene), reading.known, [(key_of(each), len(each.objects)) for each in collections]
-    if reading.known is None or SESSION.hidden_skins is None or SESSION.hidden_skins[0] != mark:
-        objects = dict.fromkeys(obj for each in collections for obj in each.objects)
-        skins = [obj for obj in objects if obj.type == "MESH" and obj.skinglow.enabled]
-        SESSION.hidden_skins = mark, [obj for obj in skins if key_of(obj) not in seen]
-    return SESSION.hidden_skins[1]
+    mark = key_of(scene), [(key_of(each), len(each.objects)) for each in collections]
+    if SESSION.scene_skins is None or SESSION.scene_skins[0] != mark:
+        objects = [obj for each in collections for obj in each.objects if obj.type == "MESH" and obj.skinglow.enabled]
+        SESSION.scene_skins = mark, list(dict.fromkeys(objects))
+    return SESSION.scene_skins[1]
 
 
-def _needed_nodes(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, reading: SceneReading) -> tuple:
-    """What tells whether a skin needs other nodes; of one that is lit per pixel, a layout that its light fits into."""
-    settings = obj.skinglow
-    if settings.mode != "PHYSICAL" or settings.weights == "OBJECT":
-        return settings.size, None, 0
-    tiles = rows_of(obj.data) if settings.weights == "SHAPE" else 0
-    return settings.size, None if tiles else _layout(obj, depsgraph, reading), tiles
-
-
-def _layout(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, reading: SceneReading) -> Layout:
+def _layout(obj: bpy.types.Object, light: _Light) -> Layout:
+    """A layout that the light of a skin that is lit per pixel fits into."""
     skin = read_skin(obj, obj.matrix_world)
     if skin.surface is None:
         skin = lit_per_pixel(skin, obj, obj.matrix_world)
-    lights = [light for light in reading.lights if not light.unlit_reason]
-    possible = lights_that_may_shine(depsgraph, reading.lights, reading.known)
-    names = {light.object_name for light in lights}
-    lights += [light for light in possible if light.object_name not in names]
-    world = any(world_irradiance(reading.world)) or world_may_shine(depsgraph.scene)
-    return layout_of_lights(skin, lights, world)
+    return layout_of_lights(skin, light.lights, light.world)

@@ -74,6 +74,8 @@ def _update_scene(
     else:
         SESSION.known.pop(address, None)
     seen = {skin.key for _obj, skin in reading.skins} | faults.keys()
+    if made is not None:
+        SESSION.scene_skins = None
     hidden = [made] if made is not None and key_of(made) not in seen else []
     if left_out is None:
         hidden += to_make_ready(depsgraph, reading, seen.union(map(key_of, hidden)))

@@ -165,10 +165,10 @@ def check_lights_that_come_while_it_is_hidden(work):
         shown = pixels(work)
         assert SESSION.render_faults == {} and layout(obj)[1:] == (4, 0, 0), (hide.__name__, layout(obj))
         close(shown, expected(core_lights()), what=hide.__name__)
-        found = SESSION.hidden_skins
+        found = SESSION.scene_skins
         light.location.x += 0.1
         depsgraph()
-        assert SESSION.hidden_skins is found, "all objects of the scene were looked at again"
+        assert SESSION.scene_skins is found, "all objects of the scene were looked at again"
         close(pixels(work), expected(core_lights()), what=hide.__name__)
         bpy.data.objects.remove(obj)
         light.location.x += 0.1
