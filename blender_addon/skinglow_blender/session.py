@@ -3,20 +3,22 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+import bpy
+
 from .identity import key_of
 
 if TYPE_CHECKING:
-    import bpy
-
     from .commands.freezing import Freezing
     from .commands.material_health import Fault
     from .live.newest_wins import NewestWins
     from .live.shape_update import ShapeState
     from .read.known_objects import Known
+    from .read.possible_lights import PlacedLight
     from .read.scene_reading import SceneReading
     from .read.shown_mesh import ShownMeshes
     from .show.lut_image import Atlas
@@ -47,7 +49,10 @@ class Session:
         #: Frozen skin to the frame at which the viewport was last looked at, and what its light depends on there.
         self.marks: dict[str, tuple[int, str]] = {}
         self.rendering = False
+        self.is_background = bpy.app.background
         self.render_frame: float | None = None
+        #: Whether nodes or images changed while rendering, so that the viewport's table has to be laid out anew.
+        self.built_while_rendering = False
         #: Renders that wait in a thread for light through shapes.
         self.waiting = 0
         #: Whether the user ended what the last update waited for, and the signals that said so.
@@ -58,7 +63,11 @@ class Session:
         #: Address of a depsgraph to the objects of it that matter, as of its last reading.
         self.known: dict[int, Known] = {}
         #: The light objects of a scene that may shine in a render, and what they were found by (possible_lights.py).
-        self.light_objects: tuple[tuple, list[bpy.types.Object]] | None = None
+        self.light_objects: tuple[tuple, list[PlacedLight]] | None = None
+        #: The skins of a scene that a render may show, and what they were found by; of those that are hidden, what
+        #: their nodes were made ready for (hidden_skins.py).
+        self.scene_skins: tuple[tuple, list[bpy.types.Object]] | None = None
+        self.made_ready: dict[str, list] = {}
         #: Whether the file was seen to have no skin; None: not looked at since data was added.
         self.has_none: bool | None = None
         #: Whether a skin may have become one whose mesh lacks tiles since all were looked at.
@@ -98,6 +107,10 @@ class Session:
         #: Light that a window is freezing to images, frame by frame.
         self.freezing: Freezing | None = None
 
+    def is_layout_fixed(self) -> bool:
+        """Whether nodes and images have to stay as they are: while a render runs beside a window."""
+        return self.rendering and not (self.is_background and threading.current_thread() is threading.main_thread())
+
     def told(self) -> dict[str, str]:
         """What is wrong now, and what was in the last render, by skin."""
         return {**self.render_faults, **self.faults}
@@ -130,7 +143,8 @@ class Session:
         self.marks.clear()
         self.base_images.clear()
         self.known.clear()
-        self.light_objects = None
+        self.light_objects = self.scene_skins = None
+        self.made_ready.clear()
         self.material_groups.clear()
         self.reading = self.has_none = None
 
@@ -141,6 +155,7 @@ class Session:
             "freezing",
             "waiting",
             "interrupted",
+            "is_background",
             "signals",
             "updates",
             "undone_graphs",

@@ -29,7 +29,14 @@ def _changed(settings: "SkinSettings", _context: bpy.types.Context) -> None:
 def _lit_otherwise(settings: "SkinSettings", context: bpy.types.Context) -> None:
     """The skin may be lit through its shape now, which needs tiles."""
     SESSION.may_lack_tiles = True
+    # Of a skin that is hidden Blender reports nothing, and it needs other nodes, too.
+    SESSION.known.clear()
     _changed(settings, context)
+
+
+#: Options of what decides the nodes and images of a skin, of which none can be added while a window renders:
+#: frames would show what the viewport had when the render began.
+NOT_ANIMATED: set[str] = set()
 
 
 class SkinSettings(bpy.types.PropertyGroup):
@@ -46,6 +53,7 @@ class SkinSettings(bpy.types.PropertyGroup):
         name="Mode",
         items=MODES,
         default="PHYSICAL",
+        options=NOT_ANIMATED,
         update=_lit_otherwise,
         description="How the transmitted light is computed",
     )
@@ -53,6 +61,7 @@ class SkinSettings(bpy.types.PropertyGroup):
         name="Lighting",
         items=LIGHTINGS,
         default="OBJECT",
+        options=NOT_ANIMATED,
         update=_lit_otherwise,
         description="Whether the lights are evaluated once per object, at each pixel, or solved in the flesh "
         "(Physical mode)",
@@ -91,6 +100,7 @@ class SkinSettings(bpy.types.PropertyGroup):
         name="Base",
         items=BASES,
         default="BUILTIN",
+        options=NOT_ANIMATED,
         update=_changed,
         description="Base lookup: brightness by thickness",
     )
@@ -216,6 +226,7 @@ class SkinSettings(bpy.types.PropertyGroup):
         min=1,
         soft_max=1024,
         max=65536,
+        options=NOT_ANIMATED,
         update=_changed,
         description="Number of entries of the lookup",
     )

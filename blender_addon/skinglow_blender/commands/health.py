@@ -8,7 +8,7 @@ import numpy as np
 
 from ..errors import SkinError
 from ..identity import key_of
-from ..live.needed_nodes import SHOW_IN_LIBRARY, SHOW_LIGHTS
+from ..live.needed_nodes import REMEDIES
 from ..live.shape_update import EDIT_MODE, shape_report
 from ..read.enabled_objects import is_followed
 from ..read.measured_size import is_reshaped, is_stretched
@@ -67,7 +67,7 @@ def _faults_now(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[F
 
 def _as_fault(told: str) -> Fault:
     """What an update told of a skin, with the remedy that it named if Repair is none."""
-    for remedy in (SHOW_LIGHTS, SHOW_IN_LIBRARY):
+    for remedy in REMEDIES:
         if told.endswith(f": {remedy}"):
             return Fault(told.removesuffix(f": {remedy}"), remedy)
     return Fault(told, REPAIR)

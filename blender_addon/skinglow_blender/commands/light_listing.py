@@ -14,7 +14,13 @@ from ..read.scene_world import World
 from ..session import SESSION
 from ..table.lut_layout import MAX_TERMS
 from ..table.occlusion import with_visible_fractions
+from ..table.skin_tables import Table
 from .skin import skin_settings_of, table_of
+
+#: Note of what the nodes of a skin that is lit per pixel, as a library's, have no room for.
+NO_NODES = "the skin has no nodes for it: the same all over the skin"
+#: Of a large light for whose parts there is no room.
+FEW_NODES = "the skin has too few nodes for its size: coarser than it should be"
 
 
 def light_report(
@@ -46,10 +52,10 @@ def light_report(
     if reading is None or not any(other.key == skin.key for _obj, other in reading.skins):
         reading = with_visible_fractions(read_scene(depsgraph)._replace(skins=[(obj, skin)]), depsgraph, {})
     lights = reading.lights
-    far_lights = _far_lights(obj, depsgraph)
-    rows = [_row(skin, light, far_lights) for light in lights]
+    table = table_of(obj, depsgraph)
+    rows = [_row(skin, light, table) for light in lights]
     if reading.world is not None:
-        rows.append(_world_row(skin, reading.world))
+        rows.append(_world_row(skin, reading.world, table))
     total = sum(float(np.sum(row["weight"])) for row in rows)
     for row in rows:
         row["share"] = float(np.sum(row["weight"])) / total if total > 0.0 else 0.0
@@ -78,20 +84,18 @@ def _entry(name: str, kind: str, reason: str = "", note: str = "") -> dict[str, 
     }
 
 
-def _far_lights(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> frozenset[str]:
-    """Names of the lights without a term of their own in a skin that is lit per pixel."""
-    table = table_of(obj, depsgraph)
-    return table.far_lights if table is not None else frozenset()
-
-
-def _row(skin: Skin, scene_light: SceneLight, far_lights: frozenset[str]) -> dict[str, Any]:
+def _row(skin: Skin, scene_light: SceneLight, table: Table | None) -> dict[str, Any]:
     sg = core()
     visible = scene_light.visible.get(skin.key, 1.0)
     notes = [scene_light.note]
     if 0.0 < visible < 1.0:
         notes.append(f"other objects let {visible:.1%} of it through")
-    if scene_light.name in far_lights:
+    if table is not None and scene_light.name in table.far_lights:
         notes.append(f"more than {MAX_TERMS} lights: treated as distant")
+    if table is not None and scene_light.name in table.crowded_out:
+        notes.append(NO_NODES)
+    if table is not None and scene_light.name in table.coarse:
+        notes.append(FEW_NODES)
     row = _entry(scene_light.name, scene_light.signature[1], scene_light.unlit_reason, "; ".join(filter(None, notes)))
     row["visible"], row["object"] = visible, key_of(scene_light.shown_by)
     if not row["reason"] and not scene_light.lights(skin.key):
@@ -115,12 +119,14 @@ def _row(skin: Skin, scene_light: SceneLight, far_lights: frozenset[str]) -> dic
     return row
 
 
-def _world_row(skin: Skin, world: World) -> dict[str, Any]:
+def _world_row(skin: Skin, world: World, table: Table | None) -> dict[str, Any]:
     row = _entry(world.name, "WORLD", world.unlit_reason, world.unsupported)
     if skin.mode != "PHYSICAL":
         row["reason"] = "only Physical mode uses the world"
     elif not row["reason"]:
         row["weight"], row["note"] = np.array(world.irradiance), world.note
+        if table is not None and world.name in table.crowded_out:
+            row["note"] = "; ".join(filter(None, (world.note, NO_NODES)))
         if not row["weight"].any():
             row["reason"] = world.note or "its color or strength is 0"
     return row

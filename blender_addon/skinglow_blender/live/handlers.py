@@ -12,6 +12,7 @@ from ..read import world_image
 from ..read.file_skins import skins_of_file
 from ..session import SESSION
 from ..show.group_following import follow_materials, merge_copies, remove_orphans
+from ..show.image_pairs import keep_in_file
 from ..show.lut_image import ROWS, skin_groups
 from ..show.mask import mask_groups, store_masks
 from ..show.tile_image import TILES
@@ -23,7 +24,14 @@ from .hidden_layers import is_of_before, remember_hidden
 from .live_update import update_scene
 from .relevant_updates import changes_of
 from .shape_tiles import store_missing_tiles
-from .windows import follow_windows, is_shown, stop_following_windows, update_shown, update_windows_soon
+from .windows import (
+    follow_windows,
+    is_shown,
+    shown_layers,
+    stop_following_windows,
+    update_shown,
+    update_windows_soon,
+)
 
 
 @guarded
@@ -120,6 +128,11 @@ def on_render_end(_scene: bpy.types.Scene, _unused: None) -> None:
     SESSION.render_frame = None
     occlusion.forget("RENDER")
     show_viewport()
+    if SESSION.built_while_rendering:
+        SESSION.built_while_rendering = False
+        for layer in shown_layers():
+            if layer is not None and layer.depsgraph is not None:
+                update_shown(layer.depsgraph)
 
 
 @guarded
@@ -182,8 +195,8 @@ def on_load(_first: Any, _second: Any) -> None:  # noqa: ANN401
 def on_save(_first: Any, _second: Any) -> None:  # noqa: ANN401
     """Called before saving: generated pixels are not saved unless packed."""
     for image in {i for group in skin_groups() for kind in (ROWS, TILES) for i in kind.all_of(group)}:
-        if image.library is None and image.is_dirty:
-            image.pack()
+        if image.library is None and image.size[0]:
+            keep_in_file(image)
 
 
 def show_viewport() -> None:

@@ -26,7 +26,8 @@ from ..thickness.tile_attribute import rows_of
 from . import shape_answers, shape_update, waiting
 from .frozen_update import follow_frozen, mark_of
 from .hidden_layers import evaluate_anew
-from .needed_nodes import crowding, fit_nodes, is_fixed, make_room
+from .hidden_skins import to_make_ready
+from .needed_nodes import crowding, fit_nodes, is_cut_down, is_fixed, make_room
 from .rebuilt import Rebuilt
 from .shape_tiles import hide_tiles, write_tiles
 
@@ -47,7 +48,8 @@ def update_scene(
     A skin with a fault keeps its last good table. With only_live, skins that are not live keep the table they show.
     left_out  whether another view layer decides what a skin shows
     known     what an earlier reading of this depsgraph found, if that still holds; None: every object is looked at
-    made      a skin that is made ready for renders also if it is hidden in this depsgraph
+    made      a skin that is made ready for renders also if it is hidden in this depsgraph; others are if they may be
+              rendered and have not been made ready for these lights
     """
     with TURN:
         return _update_scene(depsgraph, only_live, left_out, known, made)
@@ -72,9 +74,13 @@ def _update_scene(
     else:
         SESSION.known.pop(address, None)
     seen = {skin.key for _obj, skin in reading.skins} | faults.keys()
-    hidden = made is not None and key_of(made) not in seen
+    if made is not None:
+        SESSION.scene_skins = None
+    hidden = [made] if made is not None and key_of(made) not in seen else []
+    if left_out is None:
+        hidden += to_make_ready(depsgraph, reading, seen.union(map(key_of, hidden)))
     if hidden:
-        reading = reading._replace(skins=[*reading.skins, (made, _as_in_file(made))])
+        reading = reading._replace(skins=[*reading.skins, *((obj, _as_in_file(obj)) for obj in hidden)])
     SESSION.reference_objects = frozenset(skin.reference for _obj, skin in reading.skins if skin.reference)
     rebuilt: list[Rebuilt] = []
     groups: dict[str, tuple[bpy.types.NodeTree, list[tuple[bpy.types.Object, Skin]]]] = {}
@@ -96,12 +102,11 @@ def _update_scene(
                 SESSION.marks.update((skin.key, (frame, mark_of(obj, skin, reading))) for obj, skin in members)
             continue
         try:
-            members = [
-                (obj, skin if hidden and obj == made else _as_can_be(obj, skin, depsgraph)) for obj, skin in members
-            ]
+            members = [(obj, skin if obj in hidden else _as_can_be(obj, skin, depsgraph)) for obj, skin in members]
             rebuilt += _update_group(group, members, reading, depsgraph, only_live, faults)
-            if hidden and made.skinglow.group == group and nodes_of(group).tiles and rows_of(made.data):
-                place_tiles(group, {made: rows_of(made.data)})
+            through = {obj: rows_of(obj.data) for obj in hidden if obj.skinglow.group == group}
+            if any(through.values()) and nodes_of(group).tiles:
+                place_tiles(group, {obj: rows for obj, rows in through.items() if rows})
         except SkinError as error:
             for _obj, skin in members:
                 faults[skin.key] = f"{skin.name}: {error}"
@@ -172,6 +177,7 @@ def _update_group(
                 rebuilt.append(Rebuilt(skin.name, mode, changed_from[0], signature, skin.key))
         _set_row_property(obj, skin, atlas, row)
     _follow_shapes(group, members, atlas, kept, reading, faults)
+    atlas.look_for_loss(group)
     if atlas.is_dirty:
         atlas.write(group)
     if mode == "RENDER" or not SESSION.rendering:
@@ -236,7 +242,7 @@ def _compute(
             signature = signature._replace(mesh=shape_update.mesh_version(skin.key, atlas.mode))
         table = atlas.tables.get(skin.key)
         # Once nodes can be added, what had no room gets it.
-        is_cut = table is not None and skin.surface is not None and (table.lighting is None or table.crowded_out)
+        is_cut = table is not None and skin.surface is not None and (table.lighting is None or is_cut_down(table))
         if atlas.signatures.get(skin.key) != signature or (is_cut and not fixed):
             try:
                 table = compute_table(skin, reading.lights, reading.world, room)
@@ -244,7 +250,7 @@ def _compute(
             except (SkinError, ValueError) as error:
                 faults[skin.key] = str(error)
                 continue
-        if table.crowded_out:
+        if is_cut_down(table):
             faults[skin.key] = crowding(obj.skinglow.group, skin, table)
 
 

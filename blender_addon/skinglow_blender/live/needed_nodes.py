@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The nodes and images that the skins of a node group need: built before they are used, never while rendering."""
+"""The nodes and images that the skins of a node group need: built before they are used.
+
+While a window renders, in a thread of its own, none are built. Without a window Blender evaluates what a frame's
+handler writes before the frame is rendered, and so it gets what it needs.
+"""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -12,35 +16,50 @@ from ..read.possible_lights import lights_that_may_shine, world_may_shine
 from ..read.scene_reading import SceneReading, Skin
 from ..session import SESSION
 from ..show.group_nodes import GroupNodes, build_nodes, nodes_of
-from ..show.image_pairs import have_room
+from ..show.image_pairs import have_room, keep_animated
 from ..show.inner_groups import has_inner_groups
 from ..show.lut_image import ROWS, Atlas, ensure_images, images_of
 from ..table.light_room import layout_with_room
 from ..table.lut_layout import Layout, layout_of
 from ..table.skin_tables import Table
 
-#: What to do about nodes for too few lights: SHOW_LIGHTS where none can be added while rendering, SHOW_IN_LIBRARY where
+#: What to do about nodes for too few lights, or parts of large ones: where none can be added while rendering, and where
 #: they belong to a library.
 OTHERWISE = "or set Lighting to Per Object or Through the Shape"
 SHOW_LIGHTS = f"show these in the viewport once, {OTHERWISE}"
+SHOW_FRAME = f"show this frame in the viewport once, {OTHERWISE}"
 SHOW_IN_LIBRARY = f"open that file, show as many lights there and save it, or make the skin local, {OTHERWISE}"
+SHOW_AS_NEAR_IN_LIBRARY = (
+    f"open that file, show as large lights as near to it there and save it, or make the skin local, {OTHERWISE}"
+)
+#: All of these.
+REMEDIES = (SHOW_LIGHTS, SHOW_FRAME, SHOW_IN_LIBRARY, SHOW_AS_NEAR_IN_LIBRARY)
 
 
 def is_fixed(group: bpy.types.NodeTree) -> bool:
-    """Nodes cannot be added while rendering, nor to a group from a library."""
-    return SESSION.rendering or group.library is not None
+    """Nodes cannot be added while a window renders, nor to a group from a library."""
+    return SESSION.is_layout_fixed() or group.library is not None
+
+
+def is_cut_down(table: Table) -> bool:
+    """Whether the nodes of a skin show less of its light than they should."""
+    return bool(table.crowded_out or table.coarse)
 
 
 def crowding(group: bpy.types.NodeTree, skin: Skin, table: Table) -> str:
-    """The fault of a skin whose nodes have no room for some of its light."""
-    names = [f"'{name}'" for name in table.crowded_out[:3]]
-    if len(table.crowded_out) > len(names):
-        names.append(f"{len(table.crowded_out) - len(names)} more")
-    shown = f"so that the light of {', '.join(names)} is the same all over it"
+    """The fault of a skin whose nodes have no room for some of its light (is_cut_down)."""
+    lights = table.crowded_out or table.coarse
+    names = [f"'{name}'" for name in lights[:3]]
+    if len(lights) > len(names):
+        names.append(f"{len(lights) - len(names)} more")
+    shown = "the same all over it" if table.crowded_out else "coarser than it should be"
+    shown = f"so that the light of {', '.join(names)} is {shown}"
     if group.library is not None:
-        what, remedy = f"its nodes, linked from {group.library.filepath}, are too few for these lights", SHOW_IN_LIBRARY
+        what = f"its nodes, linked from {group.library.filepath}, are too few for these lights"
+        remedy = SHOW_IN_LIBRARY if table.crowded_out else SHOW_AS_NEAR_IN_LIBRARY
     else:
-        what, remedy = "its material has too few nodes for these lights while rendering", SHOW_LIGHTS
+        what = "its material has too few nodes for these lights while rendering"
+        remedy = SHOW_LIGHTS if table.crowded_out else SHOW_FRAME
     return f"{skin.name}: {what}, {shown}: {remedy}"
 
 
@@ -50,7 +69,7 @@ def make_room(group: bpy.types.NodeTree, width: int, rows: int) -> list[bpy.type
     ROWS.require(group, images)
     if have_room(images, width, rows):
         return images
-    if SESSION.rendering:
+    if SESSION.is_layout_fixed():
         raise SkinError("its images are too small and cannot be enlarged while rendering: update before rendering")
     ensure_images(group, width, rows)
     return images_of(group)
@@ -74,10 +93,10 @@ def fit_nodes(
         wanted = wanted._replace(layout=_with_room(wanted.layout, atlas, members, reading, depsgraph))
     if wanted == there:
         return False
-    if SESSION.rendering:
-        # Nodes that are no longer needed may stay.
-        if there.rows >= wanted.rows and there.tiles >= wanted.tiles and wanted.layout in (None, there.layout):
-            return False
+    # Nodes that are no longer needed may stay.
+    if SESSION.rendering and _are_enough(there, wanted):
+        return False
+    if SESSION.is_layout_fixed():
         raise SkinError(
             "its material lacks nodes for this way of lighting, and none can be added while rendering: "
             "update before rendering"
@@ -87,7 +106,14 @@ def fit_nodes(
     if wanted.layout is not None:
         ensure_images(group, wanted.layout.width, atlas.pixels.shape[0])
     build_nodes(group, wanted)
+    if depsgraph.mode == "RENDER":
+        SESSION.built_while_rendering = True
+        keep_animated()
     return not atlas.fits(group)
+
+
+def _are_enough(there: GroupNodes, wanted: GroupNodes) -> bool:
+    return there.rows >= wanted.rows and there.tiles >= wanted.tiles and wanted.layout in (None, there.layout)
 
 
 def _wanted_nodes(

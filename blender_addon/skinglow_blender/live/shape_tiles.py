@@ -30,6 +30,7 @@ def write_tiles(group: bpy.types.NodeTree, mode: str, shown: Mapping[bpy.types.O
             pixels = atlas.rows_for(key, rows[key], each.tiles.rows, each)
             each.tiles.draw(working_space.from_rec709(each.radiance), pixels, alpha=not has_alpha)
         show_tiles(obj, atlas, rows[key])
+    atlas.look_for_loss(group)
     if atlas.is_dirty:
         atlas.write(group)
     if mode == "RENDER" or not SESSION.rendering:

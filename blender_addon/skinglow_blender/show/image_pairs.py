@@ -73,9 +73,12 @@ class GroupImages:
         if have_room(images, width, rows):
             return
         self.require(group, images)
-        width, rows = max(width, images[0].size[0]), max(power_of_two(rows), images[0].size[1])
+        width, rows = max(width, *(i.size[0] for i in images)), max(power_of_two(rows), *(i.size[1] for i in images))
         for image in images:
-            image.scale(width, rows)
+            if image.size[0]:
+                image.scale(width, rows)
+            else:
+                _revive(image, width, rows)
 
     def shrink(self, group: bpy.types.NodeTree) -> None:
         """Makes a group's images as low as new ones are: what nothing shows takes no memory. Not while rendering."""
@@ -165,6 +168,28 @@ def _new_image(name: str, width: int, height: int) -> bpy.types.Image:
     return image
 
 
+def _revive(image: bpy.types.Image, width: int, height: int) -> None:
+    """Gives an image pixels again whose file is gone: it was saved unpacked, with the add-on off."""
+    image.filepath = ""
+    image.source = "GENERATED"
+    image.use_generated_float = True
+    image.generated_width, image.generated_height = width, height
+
+
+def is_read_from_disk(image: bpy.types.Image) -> bool:
+    """Whether Cycles renders the image's file, if there is one, and not its pixels: after Unpack Resources."""
+    return image.source == "FILE" and image.packed_file is None
+
+
+def keep_in_file(image: bpy.types.Image) -> None:
+    """Has an image saved with the blend file, as it is now."""
+    if is_read_from_disk(image) and not image.is_dirty:
+        # Blender would pack what is on the disk, if that is still there.
+        image.pixels.foreach_set(read_pixels(image).ravel())
+    if image.is_dirty:
+        image.pack()
+
+
 class PairContents:
     """The contents of one pair of images; cached, since reading pixels back is slow."""
 
@@ -180,6 +205,8 @@ class PairContents:
         self.front = 1 if images.shown(group) == pair[1] else 0
         self.was_shown = True
         self._is_compared = False
+        #: Whether the image was written and is still known to be as it was.
+        self._is_written = False
 
     def fits(self, group: bpy.types.NodeTree, images: list[bpy.types.Image] | None = None) -> bool:
         """Whether group and images, their size, and the file's working space are still those of this object.
@@ -197,6 +224,19 @@ class PairContents:
         """Whether the other one is of the same group, images and working space; their size may differ."""
         return self._data == other._data and self.space == other.space
 
+    def look_for_loss(self, group: bpy.types.NodeTree, images: list[bpy.types.Image] | None = None) -> None:
+        """Has the image written anew if somebody else may have taken its pixels back: reloaded or unpacked all images.
+
+        images  all images of the group, if known
+        """
+        if not self._is_written:
+            return
+        image = self.images.pair(group, self.mode, images)[self.front]
+        # What was written is not in the file, until it is saved.
+        if not image.is_dirty or is_read_from_disk(image):
+            self._is_written = self._is_compared = False
+            self.is_dirty = True
+
     def write(self, group: bpy.types.NodeTree) -> None:
         """Writes the pixels into an image that no renderer holds a copy of.
 
@@ -205,7 +245,9 @@ class PairContents:
         pair = self.images.pair(group, self.mode)
         if not self._is_compared:
             self._is_compared = True
-            if np.array_equal(read_pixels(pair[self.front]), self.pixels):
+            image = pair[self.front]
+            is_unsaved = image.is_dirty and is_read_from_disk(image)
+            if not is_unsaved and np.array_equal(read_pixels(image), self.pixels):
                 self.is_dirty = False
                 return
         if self.was_shown and (self.mode == "RENDER" or is_rendered_in_view()):
@@ -213,7 +255,9 @@ class PairContents:
             self.was_shown = False
         image = pair[self.front]
         image.pixels.foreach_set(self.pixels.ravel())
-        self.is_dirty = False
+        self.is_dirty, self._is_written = False, True
+        if is_read_from_disk(image):
+            image.pack()
         # Drop the GPU texture of the old pixels.
         image.gl_free()
 
@@ -221,7 +265,7 @@ class PairContents:
         """Puts the up-to-date image into the nodes, unless it is there already."""
         image = self.images.pair(group, self.mode)[self.front]
         if self.mode == "RENDER" and self.images.shown(group) != image:
-            _keep_animated()
+            keep_animated()
         self.images.show(group, image)
         self.was_shown = True
 
@@ -230,7 +274,7 @@ def _addresses(group: bpy.types.NodeTree, pair: tuple[bpy.types.Image, bpy.types
     return tuple(data.as_pointer() for data in (group, *pair))
 
 
-def _keep_animated() -> None:
+def keep_animated() -> None:
     """Has Blender evaluate the animation of materials again.
 
     A change of their nodes copies them anew, with the values of the frame that the viewport shows.

@@ -140,7 +140,7 @@ def _make_room(group: bpy.types.NodeTree, rows: int) -> None:
     width = core().FaceTiles.WIDTH
     if TILES.has_room(group, width, rows):
         return
-    if SESSION.rendering:
+    if SESSION.is_layout_fixed():
         raise SkinError("its tile images are too small and cannot be enlarged while rendering: update before rendering")
     TILES.ensure(group, width, power_of_two(rows))
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Lights and nodes that do not agree: how many nodes a skin may need, and what is shown where there are too few."""
 
+from collections import Counter
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,6 +17,10 @@ if TYPE_CHECKING:
 
 #: The capacity of nodes that read plain rows: they light nothing per pixel.
 NO_ROOM = Layout(0, 0, 0, False)
+
+
+#: Relative difference of irradiance from which a light with fewer terms than it should have is told.
+COARSE = 0.05
 
 
 class Fitted(NamedTuple):
@@ -50,21 +55,50 @@ def fit_lights(
     return Fitted(lighting, near, sorted(set(range(len(lights))) - set(near)))
 
 
+def coarse_lights(lighting: Any, wanted: Any, box: tuple[tuple, tuple]) -> list[int]:  # noqa: ANN401
+    """Indices of the lights that have fewer terms than they should, where that can be seen about the skin's bounds.
+
+    lighting, wanted  skinglow.SurfaceLighting as it fits the nodes, and as it should be
+    """
+    low, high = np.array(box)
+    corners = low + (high - low) * (np.indices((3, 3, 3)).reshape(3, -1).T / 2.0)
+    normals = np.concatenate([np.eye(3), -np.eye(3)])
+    at = np.repeat(corners, len(normals), axis=0), np.tile(normals, (len(corners), 1))
+    shown, right = lighting.irradiance(*at), wanted.irradiance(*at)
+    if np.abs(shown - right).max() <= COARSE * np.abs(right).max():
+        return []
+    terms, wanted_terms = Counter(lighting.lights_of_terms), Counter(wanted.lights_of_terms)
+    return sorted(i for i in wanted_terms if terms[i] < wanted_terms[i])
+
+
 def layout_with_room(skin: Skin, table: "Table", possible: list[SceneLight], world_may_shine: bool) -> Layout:
     """The layout for what lights a skin now, and for what may light it while nodes cannot be added.
 
     possible  read.possible_lights.lights_that_may_shine
     """
     plain = table.lighting.plain_terms
-    profiled = len(table.lighting.terms) - plain
-    number = plain + profiled
-    for light in possible:
-        if light.object_name in table.near_lights or not light.lights(skin.key):
-            continue
-        more = _terms_alone(light.signature, skin.surface.min, skin.surface.max)
-        plain, profiled, number = plain + more[0], profiled + more[1], number + 1
+    terms = plain, len(table.lighting.terms) - plain
+    return _with_terms(skin, terms, [p for p in possible if p.object_name not in table.near_lights], world_may_shine)
+
+
+def layout_of_lights(skin: Skin, lights: list[SceneLight], world: bool) -> Layout:
+    """A layout that these lights fit into, whatever their power and color; quick, and larger than it need be.
+
+    world  whether there is light of the world
+    """
+    return _with_terms(skin, (0, 0), lights, world)
+
+
+def _with_terms(skin: Skin, terms: tuple[int, int], lights: list[SceneLight], world: bool) -> Layout:
+    """The layout for so many terms without and with a profile, those of other lights, and the world."""
+    plain, profiled = terms
+    number, before = plain + profiled, plain + profiled
+    for light in lights:
+        if light.lights(skin.key):
+            more = _terms_alone(light.signature, skin.surface.min, skin.surface.max)
+            plain, profiled, number = plain + more[0], profiled + more[1], number + 1
     # Those beyond what has terms are in the polynomial.
-    world = world_may_shine or (bool(possible) and number > MAX_TERMS)
+    world = world or (number > before and number > MAX_TERMS)
     return layout_with(skin.base[1], min(plain, MAX_TERMS), min(profiled, MAX_TERMS), world)
 
 

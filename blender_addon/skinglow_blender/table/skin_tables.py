@@ -13,7 +13,7 @@ from ..read.scene_reading import Skin
 from ..read.scene_world import World
 from ..session import SESSION
 from ..tissue_presets import TISSUE_SLIDERS
-from .light_room import NO_ROOM, fit_lights
+from .light_room import NO_ROOM, coarse_lights, fit_lights
 from .lut_layout import MAX_TERMS, Layout, layout_of
 
 #: The largest pixel value of a float image.
@@ -35,6 +35,8 @@ class Table(NamedTuple):
     crowded_out: tuple[str, ...] = ()
     #: Irradiance of these at the reference point, which is shown everywhere.
     constant: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    #: Names of area lights in fewer parts than they should have, for which its nodes have no room.
+    coarse: tuple[str, ...] = ()
 
 
 class Signature(NamedTuple):
@@ -186,6 +188,7 @@ class _Surface(NamedTuple):
     near_lights: frozenset[str] = frozenset()
     crowded_out: tuple[str, ...] = ()
     constant: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    coarse: tuple[str, ...] = ()
 
 
 def _lighting(
@@ -196,11 +199,15 @@ def _lighting(
     angular = _angular_weight(skin.base)
     environment = world.environment if world is not None else None
     box = skin.surface.min, skin.surface.max
+    wanted = None
     for max_terms in range(MAX_TERMS, -1, -1):
         lighting = sg.SurfaceLighting(core_lights, *box, environment, angular, max_terms=max_terms)
+        wanted = wanted or lighting
         if capacity is None or capacity.holds(layout_of(lighting, skin.base[1])):
             far = frozenset(core_lights[i].name for i in lighting.far_lights)
-            return _Surface(lighting, far, frozenset(lights[i].object_name for i in lighting.lights_of_terms))
+            near = frozenset(lights[i].object_name for i in lighting.lights_of_terms)
+            coarse = coarse_lights(lighting, wanted, box) if lighting is not wanted else ()
+            return _Surface(lighting, far, near, coarse=tuple(core_lights[i].name for i in coarse))
     if capacity != NO_ROOM and capacity.entries < skin.base[1]:
         raise SkinError(
             f"{skin.name}: its material has nodes for a lookup of {capacity.entries} entries, and these cannot be "

@@ -67,6 +67,18 @@ def check_how_thickness_is_measured_is_not_animated(_work):
         refused(TypeError, "not animatable", obj.keyframe_insert, f"skinglow.{name}")
 
 
+def check_what_decides_the_nodes_is_not_animated(_work):
+    """No nodes can be added while rendering: frames showed the lighting that the viewport had when they began."""
+    obj = patch()
+    sb.make_skin(obj, thickness=THIN, mode="physical")
+    for name in ("mode", "weights", "base", "size"):
+        for act in (obj.keyframe_insert, obj.driver_add):
+            refused(TypeError, "not animatable", act, f"skinglow.{name}")
+        assert obj.skinglow.is_property_set(name) == (name == "mode")
+    obj.skinglow.weights = "SURFACE"
+    assert obj.skinglow.weights == "SURFACE"
+
+
 def check_lengths_are_in_mm(_work):
     """The kind of length that Blender shows in mm."""
     sb.register()

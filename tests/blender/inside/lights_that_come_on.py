@@ -1,5 +1,7 @@
 """Light per pixel that only a render shows: there are nodes for it before, or it lights the skin as a whole."""
 
+from contextlib import contextmanager
+
 import bpy
 import numpy as np
 import skinglow_blender as sb
@@ -15,6 +17,16 @@ from inside.surface_weights import core_lights, expected, pixels, skin
 #: Below the patch, so on its far side.
 BELOW = {"location": (0.3, -0.2, -1.5), "energy": 80.0, "color": (1.0, 0.6, 0.3)}
 FRAMES = (1, 2, 3)
+
+
+@contextmanager
+def as_beside_a_window():
+    """Renders may build no nodes, as where Blender has a window; also a decorator."""
+    SESSION.is_background = False
+    try:
+        yield
+    finally:
+        SESSION.is_background = True
 
 
 def layout(obj):
@@ -82,6 +94,7 @@ def in_animation(work):
         bpy.app.handlers.frame_change_post.remove(look)
 
 
+@as_beside_a_window()
 def check_lights_that_come_on_in_an_animation(work):
     sb.register()
     for how, make in COMING_ON.items():
@@ -99,6 +112,7 @@ def check_lights_that_come_on_in_an_animation(work):
             close(shown, expected(core_lights()), what=f"{how} {kind.__name__}")
 
 
+@as_beside_a_window()
 def check_a_world_that_comes_on_in_an_animation(work):
     sb.register()
     world = bpy.context.scene.world = bpy.data.worlds.new("World")
@@ -115,6 +129,7 @@ def check_a_world_that_comes_on_in_an_animation(work):
     close(shown, pixels(work), 1e-3)
 
 
+@as_beside_a_window()
 def check_lights_that_only_a_render_shows(work):
     sb.register()
     hidden = bpy.data.collections.new("Hidden")
@@ -144,6 +159,7 @@ def check_lights_that_only_a_render_shows(work):
     assert light.name in bpy.context.view_layer.objects
 
 
+@as_beside_a_window()
 def check_no_room_for_lights_that_never_shine(_work):
     sb.register()
     off = bpy.data.collections.new("Off")
@@ -176,6 +192,7 @@ def check_no_room_for_lights_that_never_shine(_work):
     assert layout(obj) == (256, 2, 8, 1), layout(obj)
 
 
+@as_beside_a_window()
 def check_the_handler_makes_room_for_lights_that_appear(_work):
     """Also where the objects that an edit before it found are known and taken again."""
     sb.register()
@@ -202,13 +219,21 @@ def check_the_handler_makes_room_for_lights_that_appear(_work):
     assert layout(obj) == (256, 2, 1, 0)
 
 
-def instanced_light(name, **settings):
-    """A light of a collection that an empty shows, which no reading of light objects knows of; returns the empty."""
+def light_of_nodes(name, **settings):
+    """A light of a collection that geometry nodes instance, which no look at objects finds; returns their object."""
     collection = bpy.data.collections.new(name)
     add_light(name, collection=collection, **settings)
-    empty = link(bpy.data.objects.new(f"{name} shown", None))
-    empty.instance_type, empty.instance_collection = "COLLECTION", collection
-    return empty
+    tree = bpy.data.node_groups.new(name, "GeometryNodeTree")
+    if hasattr(tree, "interface"):
+        tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    else:
+        tree.outputs.new("NodeSocketGeometry", "Geometry")
+    info, end = tree.nodes.new("GeometryNodeCollectionInfo"), tree.nodes.new("NodeGroupOutput")
+    info.inputs["Collection"].default_value = collection
+    tree.links.new(info.outputs[0], end.inputs[0])
+    obj = link(bpy.data.objects.new(f"{name} shown", bpy.data.meshes.new(name)))
+    obj.modifiers.new("Nodes", "NODES").node_group = tree
+    return obj
 
 
 def panel(obj):
@@ -217,10 +242,11 @@ def panel(obj):
     return " ".join(box.texts)
 
 
+@as_beside_a_window()
 def check_what_has_no_nodes_lights_the_skin_as_a_whole(work):
     """As Per Object does, beside the brightest ones, which take the nodes that there are."""
     sb.register()
-    late = instanced_light("Late", **BELOW)
+    late = light_of_nodes("Late", **BELOW)
     obj = skin(weights="object")
     late_as_a_whole = pixels(work)
     late.hide_viewport = True
@@ -243,17 +269,18 @@ def check_what_has_no_nodes_lights_the_skin_as_a_whole(work):
     assert "the light of 'Key' is the same all over it" in str(sb.health(obj))
     # A spot has nodes of another kind, which are not there, whatever its power.
     late.hide_render = True
-    strong = instanced_light("Strong", **{**BELOW, "energy": 1e4})
-    light = strong.instance_collection.objects[0]
+    strong = light_of_nodes("Strong", **{**BELOW, "energy": 1e4})
+    light = bpy.data.objects["Strong"]
     light.data.type, light.rotation_euler = "SPOT", (np.pi, 0.1, 0.0)
     strong.hide_viewport = True
     assert pixels(work).mean(axis=(0, 1))[0] > 10.0 * both.mean(axis=(0, 1))[0]
     assert "the light of 'Strong in Strong shown' is the same" in str(sb.health(obj)), sb.health(obj)
 
 
+@as_beside_a_window()
 def check_what_a_render_told_is_kept(work):
     sb.register()
-    empty = instanced_light("Late", **BELOW)
+    empty = light_of_nodes("Late", **BELOW)
     empty.hide_viewport = True
     obj = skin()
     pixels(work)
