@@ -22,8 +22,11 @@ def image_of(key: str) -> bpy.types.Image | None:
     return bpy.data.images.get((name, library or None))
 
 
-def linear_pixels(image: bpy.types.Image) -> np.ndarray:
-    """(height, width, channels) float32, bottom row first. Raises SkinError if the image has none."""
+def linear_pixels(image: bpy.types.Image, *, shown: bool = False) -> np.ndarray:
+    """(height, width, channels) float32, bottom row first. Raises SkinError if the image has none.
+
+    shown  whether bytes are multiplied by alpha, as they are where an Image Texture's Color alone is linked; floats are
+    """
     if not image.has_data:
         # Reading the pixels loads them, if the file exists.
         len(image.pixels)
@@ -32,6 +35,8 @@ def linear_pixels(image: bpy.types.Image) -> np.ndarray:
         raise SkinError(f"'{image.name}' has no pixels: check that its file '{image.filepath}' exists")
     pixels = np.empty(width * height * image.channels, np.float32)
     image.pixels.foreach_get(pixels)
+    if shown and not image.is_float and image.channels == 4 and image.alpha_mode in ("STRAIGHT", "PREMUL"):
+        pixels.reshape(-1, 4)[:, :3] *= pixels[3::4, None]  # before they are decoded
     if _is_coded(image):
         table = _linear_of_bytes()
         for start in range(0, len(pixels), DECODE_BLOCK):
