@@ -141,7 +141,7 @@ void run_povray(PovrayArguments& options) {
     files.merge(pictures);
     replace_folder(options.folder, files, scene_files);
     std::cout << options.folder << ": " << texts << " files, " << mesh.triangles().size()
-              << " triangles; render with: cd " << options.folder << " && povray scene.ini\n";
+              << " triangles; render with: cd " << shell_word(options.folder) << " && povray scene.ini\n";
 }
 
 }  // namespace
