@@ -23,6 +23,7 @@ FILES = {
     "exr": ("OPEN_EXR", ".exr", dict(is_float=True)),
     "hdr": ("HDR", ".hdr", dict(is_float=True)),
     "numbers": ("PNG", ".png", dict(is_data=True)),
+    "numbers, half transparent": ("PNG", ".png", dict(is_data=True, alpha=0.5)),
     "coded exr": ("OPEN_EXR", ".exr", dict(is_float=True, space="sRGB")),
     "half transparent": ("PNG", ".png", dict(alpha=0.5)),
     "half transparent, its alpha used": ("PNG", ".png", dict(alpha=0.5, alpha_used=True, allowed=1.2e-2)),
