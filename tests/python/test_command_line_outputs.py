@@ -39,3 +39,18 @@ def test_a_name_of_several_lines_is_one_line_of_the_table(tmp_path):
     assert len(lines) == 7 and lines[3].startswith("Key?L  9 9 9?[2J  POINT")
     told = json.loads(skinglow("weights", tmp_path / "rig.json", "--json").stdout)
     assert told["lights"][0]["name"] == light["name"]
+
+
+def test_a_table_that_a_spreadsheet_saved_is_the_same(tmp_path):
+    """A UTF-8 mark, line ends of Windows, and as many commas in each row as the widest has."""
+    skinglow("lut", RIG, "--size", 8, "-o", tmp_path / "a.csv")
+    lines = (tmp_path / "a.csv").read_text().splitlines()
+    saved = [line + "," * (3 - line.count(",")) for line in [*lines, ""]]
+    (tmp_path / "b.csv").write_bytes(b"\xef\xbb\xbf" + "\r\n".join([*saved, ""]).encode())
+    mesh = ("--mesh", cube_obj(tmp_path / "cube.obj"))
+    for name in ("a", "b"):
+        skinglow("povray", RIG, *mesh, "--lut", tmp_path / f"{name}.csv", "-o", tmp_path / name)
+    one, other = (tmp_path / name / "lut.exr" for name in ("a", "b"))
+    skinglow("compare", one, other, "--max-rms", 0)  # their bytes tell when they were written
+    (tmp_path / "b.csv").write_text("\n".join([*lines[:-2], "", lines[-1], ""]))
+    assert "none may be missing" in refused("povray", RIG, *mesh, "--lut", tmp_path / "b.csv", "-o", tmp_path / "c")
