@@ -36,7 +36,7 @@ build_digest() {
 # What wheels are made of; they are made again when it changes.
 wheel_digest() {
     {
-        find CMakeLists.txt pyproject.toml README.md core python_bindings -type f ! -path '*__pycache__*' ! -path 'core/src/cli/*' -print0 |
+        find CMakeLists.txt pyproject.toml README.md core python_bindings povray_macros -type f ! -path '*__pycache__*' ! -path 'core/src/cli/*' -print0 |
             sort -z | xargs -0 sha256sum
         cat "$built"/{embree,highway}/digest "$steps"/*.cmake "$steps/exported_symbols.map" "$steps/third_party.py" "$steps"/*.sh
         "$1" --version

@@ -63,6 +63,7 @@ def whole_file(path: Path) -> Iterator[Path]:
     if path.exists() and not path.is_file():
         yield path
         return
+    told = path
     path = path.resolve()  # what a link leads to is replaced, not the link
     partial = path.with_name(f".{path.stem}.{os.getpid()}.part{path.suffix}")
     try:
@@ -70,6 +71,10 @@ def whole_file(path: Path) -> Iterator[Path]:
         with partial.open("rb+") as file:
             os.fsync(file.fileno())
         os.replace(partial, path)
+    except OSError as error:
+        # Its own words would name the partial file, of which nobody knows.
+        remedy = "choose a folder that exists and that you may write to"
+        raise ValueError(f"file {told}: cannot be written: {error.strerror or error}: {remedy}") from error
     finally:
         partial.unlink(missing_ok=True)
 
@@ -96,6 +101,8 @@ def weights(options: argparse.Namespace) -> None:
         return
     rows = [(one["name"], one["weight"], f"{100 * one['share']:.6g}%" if one["on"] else "off") for one in lights]
     rows += [(name, value, "") for name, value in zip(("L", "B", "B + L"), sums.values(), strict=True)]
+    # A name's line ends and other control characters would act on the terminal.
+    rows = [("".join(c if c.isprintable() else "?" for c in name), *rest) for name, *rest in rows]
     width = max(len(name) for name, *_ in rows)
     for name, value, share in rows:
         print(f"{name:{width}}" + "".join(f"{number:13.6g}" for number in value) + f"  {share}".rstrip())
@@ -181,6 +188,8 @@ def table_file(text: str) -> Path:
     path = Path(text)
     if path.suffix not in (".csv", ".npy"):
         raise argparse.ArgumentTypeError(f"{text!r}; name it .csv or .npy")
+    if not path.parent.is_dir():  # told before anything is worked out
+        raise argparse.ArgumentTypeError(f"{text!r}: there is no folder {str(path.parent)!r}; choose one that exists")
     return path
 
 
@@ -245,7 +254,11 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser().parse_args(arguments)
     try:
         options.run(options)
-    except (ValueError, TypeError, OSError, MemoryError) as error:
+    except OSError as error:
+        reason = error.strerror or str(error)
+        print(f"skinglow: file {error.filename}: {reason}: check the name and the permissions", file=sys.stderr)
+        return 2
+    except (ValueError, TypeError, MemoryError) as error:
         print(f"skinglow: {error or 'not enough memory'}", file=sys.stderr)
         return 2
     return 0

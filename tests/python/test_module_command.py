@@ -125,10 +125,32 @@ def test_refusals_are_one_line_that_names_the_thing(tmp_path: Path, capsys: pyte
         (("thickness", tmp_path / "empty.npz", "-o", out), "triangles"),
         (("thickness", tmp_path / "text.ply", "-o", out), "text.ply"),
         (("thickness", tmp_path / "none.ply", "-o", out), "none.ply"),
+        (("thickness", tmp_path / "none.npz", "-o", out), "none.npz: No such file or directory: check the name"),
+        (("lut", RIG, "-o", tmp_path / "missing" / "a.csv"), "there is no folder"),
         (("melt",), "melt"),
     ):
         assert word in refused(capsys, *arguments), arguments
     assert not out.exists()
+
+
+def test_a_folder_that_is_closed_is_told_by_the_name_that_was_given(
+    tmp_path: Path, capsys: pytest.CaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def closed(self: Path, *_arguments: object, **_options: object) -> None:
+        raise PermissionError(13, "Permission denied", str(self))
+
+    monkeypatch.setattr(Path, "write_text", closed)  # root may write anywhere
+    told = refused(capsys, "lut", RIG, "-o", tmp_path / "a.csv")
+    assert f"file {tmp_path / 'a.csv'}: cannot be written: Permission denied: choose a folder" in told
+    assert ".part" not in told and not list(tmp_path.iterdir())
+
+
+def test_a_name_of_several_lines_is_one_line_of_the_table(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    light = {"kind": "POINT", "name": "Key\nL 9 9\x1b[2J"}
+    (tmp_path / "rig.json").write_text(json.dumps({"skinglow_rig": 1, "lights": [light]}))
+    assert main(["weights", str(tmp_path / "rig.json")]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 4 and lines[0].startswith("Key?L 9 9?[2J ")
 
 
 def test_damaged_files_are_refused_at_once(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:

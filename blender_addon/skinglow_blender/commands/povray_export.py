@@ -148,6 +148,8 @@ def _write_frame(
     computed = what.compute_lut or "thickness_image" in arguments
     if depsgraph.scene.camera.data.dof.use_dof:
         notes.append("Depth of field is not exported")
+    if depsgraph.scene.render.use_border:
+        notes.append("The render region is not exported: POV-Ray renders the whole picture")
     lights = [make_light(light) for light in lights_of(skin, reading.lights)]
     if what.surface and any(light.kind == "AREA" and light.spread < np.pi for light in lights):
         notes.append(

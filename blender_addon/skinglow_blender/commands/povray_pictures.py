@@ -8,16 +8,24 @@ import bpy
 import numpy as np
 
 from .. import blender_version
-from ..errors import core
+from ..errors import SkinError, core
 from ..read import working_space
+from ..read.image_pixels import colorspace_note, linear_pixels
 from ..read.measured_size import scale_since_measured
 from ..read.node_values import linked_node
 from ..read.scene_reading import Skin
 from ..show.image_pairs import read_pixels
 from ..show.skin_material import skin_input, skin_node, skin_nodes
+from .exr_writing import write_exr
 from .povray_writing import SceneFiles, float_image
 
 THICKNESS_FILE = "thickness.exr"
+#: First bytes of files whose colors POV-Ray decodes as Blender does, and how it wants their names to end.
+READ_ALIKE = {b"\x89PNG\r\n\x1a\n": "png", b"\xff\xd8\xff": "jpg"}
+#: What a PNG says of its own colors: POV-Ray listens to it, Blender goes by the image's color space.
+PNG_WORDS = (b"gAMA", b"cHRM", b"sRGB", b"iCCP", b"cICP")
+#: Bits of a pixel of gray and RGB, of bytes.
+DEPTHS_WITHOUT_ALPHA = (8, 24)
 #: Shaders whose color POV-Ray shows as a matt surface, and the name of its input.
 BASE_COLORS = {"ShaderNodeBsdfPrincipled": "Base Color", "ShaderNodeBsdfDiffuse": "Color"}
 
@@ -105,8 +113,8 @@ def _surface(obj: bpy.types.Object, folder: Path) -> Pictures:
     try:
         image = _image_of(source)
         uv_map = _uv_map(obj, source)
-        _write_picture(image, folder)
-        return Pictures({"surface_image": _picture_name(image)}, uv_map, [])
+        name, told = _write_picture(image, folder, source.outputs["Alpha"], socket.node.inputs.get("Alpha"))
+        return Pictures({"surface_image": name}, uv_map, [f"'{obj.name}': {note}" for note in told])
     except _NotExportedError as reason:
         note = f"'{obj.name}': the base color {reason}, which is not exported: POV-Ray shows the color behind the link"
         return Pictures({"surface_color": _rest_color(socket)}, "", [note])
@@ -197,36 +205,88 @@ def _rest_color(socket: bpy.types.NodeSocket) -> tuple[float, ...]:
     return tuple(color.clip(0.0).tolist())
 
 
-def _picture_name(image: bpy.types.Image) -> str:
-    if image.source == "GENERATED":
-        return "surface.exr" if image.is_float else "surface.png"
-    return f"surface{Path(image.filepath).suffix.lower()}"
+def _write_picture(
+    image: bpy.types.Image, folder: Path, alpha: bpy.types.NodeSocket, shader_alpha: bpy.types.NodeSocket | None
+) -> tuple[str, list[str]]:
+    """Puts an image into the folder so that POV-Ray shows it as Blender does; its name there, and notes.
+
+    alpha         that output of its texture: where it is linked, Blender does not multiply the colors by it
+    shader_alpha  that input of the shader: where the one is linked to the other, holes in the picture are holes
+    POV-Ray goes by a name's ending, knows few formats, takes 8 bits of a TIFF for linear and what has alpha for
+    transparent. So a file is taken as it is where both programs read the same of it, else its colors as an EXR.
+    """
+    told = [f"the base color: {note}"] if (note := colorspace_note(image)) else []
+    if image.is_dirty and image.source == "FILE" and image.packed_file is None:
+        told.append(
+            f"the picture '{image.name}' has edits that are not in its file: POV-Ray shows them, Cycles' final renders "
+            "do not before it is saved"
+        )
+    content = b"" if image.is_dirty or image.is_float else _file_of(image)
+    ending = next((ending for first, ending in READ_ALIKE.items() if content.startswith(first)), "")
+    if image.source == "GENERATED" and not image.is_float:
+        ending = "png"
+    has_holes = any(link.to_socket == shader_alpha for link in alpha.links)
+    alike = ending and image.colorspace_settings.name == "sRGB"
+    if has_holes and not alike and not _is_opaque(image):
+        told.append(f"the alpha of the picture '{image.name}' is not exported: save it as PNG, and read it as sRGB")
+    if not (alike and (has_holes or _is_opaque(image))):
+        ending = ""
+    path = folder / f"surface.{ending or 'exr'}"
+    if path.exists():
+        return path.name, told  # of an earlier frame
+    if ending:
+        if content:
+            path.write_bytes(_without_words(content) if ending == "png" else content)
+        else:
+            _write_generated(image, path)
+        return path.name, told
+    try:
+        pixels = linear_pixels(image, shown=not alpha.is_linked)
+    except SkinError as error:
+        raise _NotExportedError(f"is the picture '{image.name}', whose file is missing") from error
+    colors = np.repeat(pixels[:, :, :1], 3, axis=2) if pixels.shape[2] < 3 else pixels[:, :, :3]
+    if image.colorspace_settings.is_data:
+        colors = working_space.to_rec709(colors)  # shaders take numbers for colors of the working space
+    write_exr(path, colors)
+    return path.name, told
 
 
-def _write_picture(image: bpy.types.Image, folder: Path) -> None:
-    """Puts an image's packed, external or generated pixels into the folder."""
-    if image.source == "GENERATED":
-        _write_generated(image, folder / _picture_name(image))
-        return
-    source = Path(bpy.path.abspath(image.filepath, library=image.library))
-    target = folder / _picture_name(image)
+def _file_of(image: bpy.types.Image) -> bytes:
+    """The bytes of an image's packed or external file; none if there is no such file."""
     if image.packed_file is not None:
-        target.write_bytes(image.packed_file.data)
-    elif source.is_file():
-        target.write_bytes(source.read_bytes())
-    else:
-        raise _NotExportedError(f"is the picture '{image.name}', whose file is missing")
+        return image.packed_file.data
+    path = Path(bpy.path.abspath(image.filepath, library=image.library))
+    return path.read_bytes() if image.source == "FILE" and path.is_file() else b""
+
+
+def _without_words(png: bytes) -> bytes:
+    """A PNG without the chunks that say what its colors are; POV-Ray takes it for sRGB then."""
+    kept, at = [png[:8]], 8
+    while at + 8 <= len(png):
+        end = at + 12 + int.from_bytes(png[at : at + 4], "big")
+        if png[at + 4 : at + 8] not in PNG_WORDS:
+            kept.append(png[at:end])
+        at = end
+    return b"".join(kept)
+
+
+def _is_opaque(image: bpy.types.Image) -> bool:
+    if image.depth in DEPTHS_WITHOUT_ALPHA:
+        return True
+    pixels = np.empty(len(image.pixels), np.float32)
+    image.pixels.foreach_get(pixels)
+    return image.channels < 4 or bool((pixels[3::4] >= 1.0).all())
 
 
 def _write_generated(image: bpy.types.Image, path: Path) -> None:
-    """Saves pixels that have no file; a copy of the datablock would have lost what was painted."""
+    """Saves bytes that have no file; a copy of the datablock would have lost what was painted."""
     pixels = np.empty(len(image.pixels), np.float32)
     image.pixels.foreach_get(pixels)
-    copy = bpy.data.images.new(".Skinglow export", *image.size, alpha=True, float_buffer=image.is_float)
+    copy = bpy.data.images.new(".Skinglow export", *image.size, alpha=True)
     try:
         copy.colorspace_settings.name = image.colorspace_settings.name
         copy.pixels.foreach_set(pixels)
-        copy.file_format, copy.filepath_raw = "OPEN_EXR" if image.is_float else "PNG", str(path)
+        copy.file_format, copy.filepath_raw = "PNG", str(path)
         copy.save()
     finally:
         bpy.data.images.remove(copy)

@@ -22,8 +22,11 @@ def image_of(key: str) -> bpy.types.Image | None:
     return bpy.data.images.get((name, library or None))
 
 
-def linear_pixels(image: bpy.types.Image) -> np.ndarray:
-    """(height, width, channels) float32, bottom row first. Raises SkinError if the image has none."""
+def linear_pixels(image: bpy.types.Image, *, shown: bool = False) -> np.ndarray:
+    """(height, width, channels) float32, bottom row first. Raises SkinError if the image has none.
+
+    shown  whether bytes are multiplied by alpha, as textures do whose Color alone is linked; floats always are
+    """
     if not image.has_data:
         # Reading the pixels loads them, if the file exists.
         len(image.pixels)
@@ -32,6 +35,10 @@ def linear_pixels(image: bpy.types.Image) -> np.ndarray:
         raise SkinError(f"'{image.name}' has no pixels: check that its file '{image.filepath}' exists")
     pixels = np.empty(width * height * image.channels, np.float32)
     image.pixels.foreach_get(pixels)
+    if shown and _is_multiplied(image):
+        # Before they are decoded, and cut to whole bytes, as OpenImageIO does it.
+        whole = np.floor(pixels.reshape(-1, 4)[:, :3] * pixels[3::4, None] * 255.0 + 1e-3)
+        pixels.reshape(-1, 4)[:, :3] = whole / 255.0
     if _is_coded(image):
         table = _linear_of_bytes()
         for start in range(0, len(pixels), DECODE_BLOCK):
@@ -48,6 +55,12 @@ def colorspace_note(image: bpy.types.Image) -> str:
     """What of an image's color space is not supported, or ""."""
     name = image.colorspace_settings.name
     return "" if not _is_coded(image) or name == "sRGB" else f"its image's color space '{name}' is treated as sRGB"
+
+
+def _is_multiplied(image: bpy.types.Image) -> bool:
+    settings = image.colorspace_settings
+    coverage = image.channels == 4 and image.alpha_mode in ("STRAIGHT", "PREMUL")
+    return coverage and not image.is_float and not settings.is_data
 
 
 def _is_coded(image: bpy.types.Image) -> bool:

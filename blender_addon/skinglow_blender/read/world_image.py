@@ -65,6 +65,6 @@ def _compute(image: bpy.types.Image, projection: str) -> Any:  # noqa: ANN401
     if image.source not in ("FILE", "GENERATED"):
         return SkinError(f"its image '{image.name}' is a {image.source.lower()}, which is not supported")
     try:
-        return core().Environment.from_image(linear_pixels(image), projection=projection, bottom_first=True)
+        return core().Environment.from_image(linear_pixels(image, shown=True), projection=projection, bottom_first=True)
     except (SkinError, ValueError) as error:
         return SkinError(f"its image {error}" if isinstance(error, SkinError) else f"its image '{image.name}': {error}")

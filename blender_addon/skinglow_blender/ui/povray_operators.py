@@ -11,6 +11,15 @@ from ..errors import SkinError
 from .operators import AnySkinOperator, SelectedSkinsOperator, selected_skins
 
 
+def _folder(given: str) -> str:
+    """The folder that a person chose."""
+    if not given:
+        raise SkinError("No folder selected for the POV-Ray files")
+    if given.startswith("//") and not bpy.data.filepath:
+        raise SkinError(f"Save the file first, or select another folder: '{given}' is one next to the blend file")
+    return bpy.path.abspath(given)
+
+
 class SKINGLOW_OT_export_povray(AnySkinOperator, bpy.types.Operator):  # noqa: N801
     """Writes POV-Ray scenes. No undo: it changes no Blender data."""
 
@@ -38,12 +47,11 @@ class SKINGLOW_OT_export_povray(AnySkinOperator, bpy.types.Operator):  # noqa: N
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         def export() -> str:
-            if not self.directory:
-                raise SkinError("No folder selected for the POV-Ray files")
+            folder = _folder(self.directory)
             graph, scene = context.evaluated_depsgraph_get(), context.scene
             files = povray_export.export_povray(
                 graph,
-                bpy.path.abspath(self.directory),
+                folder,
                 surface=self.surface,
                 compute_lut=self.compute_lut,
                 frames=(scene.frame_start, scene.frame_end) if self.animation else None,
@@ -51,7 +59,7 @@ class SKINGLOW_OT_export_povray(AnySkinOperator, bpy.types.Operator):  # noqa: N
             for note in files.notes:
                 self.report({"WARNING"}, note)
             missing = "" if povray_program() else "; POV-Ray is not installed on this computer"
-            return f"{len(files)} files written to {self.directory}{missing}"
+            return f"{len(files)} files written to {folder}{missing}"
 
         return self.attempt(export)
 
@@ -77,9 +85,7 @@ class SKINGLOW_OT_compare_povray(SelectedSkinsOperator, bpy.types.Operator):  # 
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         def compare() -> str:
-            if not self.directory:
-                raise SkinError("No folder selected for the comparison")
-            folder = bpy.path.abspath(self.directory)
+            folder = _folder(self.directory)
             skin = selected_skins(context)[0]
             done = compare_with_povray(skin, folder, per_light=self.per_light, scene=context.scene)
             for note in (*done.notes, *(entry["error"] for entry in done.entries if "error" in entry)):

@@ -73,6 +73,8 @@ int run_compare(const CompareArguments& options) {
     if (options.max_rms) require_not_negative("--max-rms", *options.max_rms);
     refuse_overwriting({options.heat_map, options.side_by_side},
                        {options.first, options.second, options.mask});
+    require_writable(options.heat_map, "a heat map", {".png"});
+    require_writable(options.side_by_side, "a picture to look at", {".png"});
     CompareOptions how;
     how.peak = options.peak;
     how.ignore_edges = options.ignore_edges;

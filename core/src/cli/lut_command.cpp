@@ -67,6 +67,8 @@ LutTable physical_table(const LutArguments& options) {
 void run_lut(const LutArguments& options) {
     const LutMode mode = options.table.mode(options.skin);
     refuse_overwriting({options.output, options.preview}, {options.rig.path(), options.table.base_path()});
+    require_writable(options.output, "a table", {".exr", ".png", ".csv"});
+    require_writable(options.preview, "a preview", {".png"});
     LutTable table = mode == LutMode::existing   ? existing_table(options)
                      : mode == LutMode::physical ? physical_table(options)
                                                  : paper_table(options);

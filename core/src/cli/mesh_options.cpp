@@ -36,6 +36,7 @@ TriangleMesh MeshOptions::read() {
     MeshFile file = read_mesh(path_, group_);
     for (const std::string& note : file.notes) tell(path_, note);
     thickness_.unit_mm = unit_mm_.value_or(file.unit_mm);
+    has_y_up_ = file.has_y_up;
     sources_ = std::move(file.sources);
     return joined(std::move(file.mesh));
 }

@@ -22,6 +22,8 @@ class MeshOptions {
     /// Reads the mesh; the unit is that of its format where --unit does not say. Each position is one vertex. Tells what was left out.
     /// @throws FileError
     TriangleMesh read();
+    /// Whether y points up in files of its format, after `read`: so says glTF alone.
+    bool has_y_up() const { return has_y_up_; }
     /// The files that were read.
     const std::vector<std::filesystem::path>& sources() const { return sources_; }
     /// One per vertex, mm; shows how far it is to a person who waits.
@@ -32,6 +34,7 @@ class MeshOptions {
     std::string group_;
     ThicknessOptions thickness_;
     std::optional<double> unit_mm_;  ///< of --unit
+    bool has_y_up_ = false;
     std::vector<std::filesystem::path> sources_;
 };
 

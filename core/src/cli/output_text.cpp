@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 #include <iostream>
+#include <string_view>
+#include <utility>
 
 namespace skinglow::cli {
 namespace {
@@ -15,6 +17,14 @@ std::size_t shown_width(const std::string& text) {
     }));
 }
 
+/// One line of a table: what a name's line ends and other control characters would do to it, a terminal does.
+std::string shown(std::string text) {
+    for (char& byte : text) {
+        if (static_cast<unsigned char>(byte) < ' ' || byte == '\x7f') byte = '?';
+    }
+    return text;
+}
+
 }  // namespace
 
 std::string short_number(double value) {
@@ -24,7 +34,10 @@ std::string short_number(double value) {
     return {buffer.data(), end.ptr};
 }
 
-void print_table(std::ostream& out, const std::vector<std::vector<std::string>>& rows) {
+void print_table(std::ostream& out, std::vector<std::vector<std::string>> rows) {
+    for (auto& row : rows) {
+        for (std::string& cell : row) cell = shown(std::move(cell));
+    }
     std::vector<std::size_t> widths(rows.front().size(), 0);
     for (const auto& row : rows) {
         for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], shown_width(row[i]));
@@ -39,6 +52,15 @@ void print_table(std::ostream& out, const std::vector<std::vector<std::string>>&
         line.erase(line.find_last_not_of(' ') + 1);
         out << line << '\n';
     }
+}
+
+std::string shell_word(const std::string& path) {
+    constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+,:@%";
+    if (!path.empty() && path.find_first_not_of(plain) == std::string::npos) return path;
+    std::string word = "'";
+    for (const char byte : path) word += byte == '\'' ? std::string("'\\''") : std::string(1, byte);
+    return word + "'";
 }
 
 void tell(const std::string& path, const std::string& note) {

@@ -28,7 +28,7 @@ struct PovrayArguments {
     SkinOptions skin;
     std::string lut;
     std::string folder;
-    std::string up = "z";
+    std::string up;  ///< empty: as the mesh's format says
     std::uint32_t width = 512;
     std::uint32_t height = 512;
     double field_of_view = 40.0;
@@ -37,8 +37,8 @@ struct PovrayArguments {
 };
 
 /// The mesh in the scene's axes: one with y up is turned as Blender's importers do.
-TriangleMesh turn_upright(const TriangleMesh& mesh, const std::string& up) {
-    if (up != "y") return mesh;
+TriangleMesh turn_upright(const TriangleMesh& mesh, bool y_up) {
+    if (!y_up) return mesh;
     std::vector<glm::dvec3> vertices = mesh.vertices();
     for (glm::dvec3& vertex : vertices) vertex = {vertex.x, -vertex.z, vertex.y};
     return {std::move(vertices), mesh.triangles()};
@@ -63,7 +63,8 @@ PovrayCamera frame(const TriangleMesh& mesh, const PovrayArguments& options) {
     return camera;
 }
 
-/// The glow from a table that was made before: it goes among the scene's pictures as it is.
+/// The glow from a table that was made before: it goes among the scene's pictures as it is. Of mode physical it holds
+/// radiant exitance, M(d) E, of which skin shows 1 / pi.
 PovrayLut use_table(const PovrayArguments& options, std::map<std::string, std::string>& pictures) {
     if (options.table.any_used() || options.skin.any_used()) {
         throw std::invalid_argument(
@@ -76,6 +77,7 @@ PovrayLut use_table(const PovrayArguments& options, std::map<std::string, std::s
     lut.glow = PovrayGlow::image;
     lut.image = "lut.exr";
     if (file.table.record.mode) lut.mode = *file.table.record.mode;
+    lut.strength = options.strength * (lut.mode == LutMode::physical ? std::numbers::inv_pi : 1.0);
     pictures[lut.image] = lut_exr_bytes(lut.image, file.table);
     return lut;
 }
@@ -83,6 +85,7 @@ PovrayLut use_table(const PovrayArguments& options, std::map<std::string, std::s
 /// The glow that the macros compute for themselves from the base or the skin, and the lights.
 PovrayLut compute_table(const PovrayArguments& options) {
     PovrayLut lut;
+    lut.strength = options.strength;
     lut.mode = options.table.mode(options.skin);
     if (lut.mode == LutMode::physical) {
         const BaseLut skin = options.table.solve_skin(options.skin).lut;
@@ -119,7 +122,9 @@ void check_folder(const PovrayArguments& options) {
 
 void run_povray(PovrayArguments& options) {
     const LightRig rig = options.rig.read();
-    const TriangleMesh mesh = turn_upright(options.mesh.read(), options.up);
+    const TriangleMesh read = options.mesh.read();
+    const TriangleMesh mesh =
+        turn_upright(read, options.up.empty() ? options.mesh.has_y_up() : options.up == "y");
     check_folder(options);
     std::map<std::string, std::string> pictures;
     PovrayScene scene;
@@ -129,19 +134,24 @@ void run_povray(PovrayArguments& options) {
     scene.lut.point = rig.point;
     scene.lut.coefficients = rig.coefficients;
     scene.lut.blood_weight = rig.blood_weight;
-    scene.lut.strength = options.strength;
     if (const auto& rgb = options.surface)
         scene.surface = PovraySurface{{(*rgb)[0], (*rgb)[1], (*rgb)[2]}, ""};
     scene.mesh.geometry = mesh;
+    const double thickest = scene.lut.axis.max_thickness_mm();
+    std::size_t thin = 0;
     for (const double thickness : options.mesh.measure(mesh)) {
+        if (thickness < thickest) ++thin;
         scene.mesh.lut_u.push_back(scene.lut.axis.texel_scale() * thickness + scene.lut.axis.texel_offset());
     }
     auto files = povray_files(scene);
     const std::size_t texts = files.size();
     files.merge(pictures);
     replace_folder(options.folder, files, scene_files);
-    std::cout << options.folder << ": " << texts << " files, " << mesh.triangles().size()
-              << " triangles; render with: cd " << options.folder << " && povray scene.ini\n";
+    std::cout << options.folder << ": " << texts << " files, " << mesh.triangles().size() << " triangles, "
+              << short_number(100.0 * static_cast<double>(thin) / static_cast<double>(mesh.vertices().size()))
+              << " % of the vertices thinner than the table's " << to_text(thickest) << " mm"
+              << (thin == 0 ? " (nothing glows: is --unit right?)" : "") << "; render with: cd "
+              << shell_word(options.folder) << " && povray scene.ini\n";
 }
 
 }  // namespace
@@ -159,7 +169,10 @@ void add_povray_command(CLI::App& program) {
     add_option(*command, "-o,--output", options->folder, "DIR",
                "Folder for the scene's files; made if missing")
         .required();
-    command->add_option("--up", options->up, "The mesh file's axis that points up")
+    command
+        ->add_option(
+            "--up", options->up,
+            "The mesh file's axis that points up; else y for glTF and GLB, whose format says so, and z")
         ->check(CLI::IsMember({"y", "z"}));
     add_option(*command, "--width", options->width, "PIXELS", "Of the picture");
     add_option(*command, "--height", options->height, "PIXELS", "Of the picture");

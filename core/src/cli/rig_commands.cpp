@@ -70,7 +70,7 @@ void print_text(const LightRig& rig, const ordered_json& report) {
     add({"L", "sum", "", ""}, report["light_weight"], "");
     add({"B", "blood", "", ""}, report["blood_weight"], "");
     add({"B + L", "", "", ""}, report["weight"], "");
-    print_table(std::cout, rows);
+    print_table(std::cout, std::move(rows));
 }
 
 void run_report(const RigArguments& options) {

@@ -16,6 +16,7 @@ struct ThicknessArguments {
 };
 
 void run_thickness(ThicknessArguments& options) {
+    require_writable(options.output, "thickness", {".csv", ".ply"});
     const TriangleMesh mesh = options.mesh.read();
     refuse_overwriting({options.output}, options.mesh.sources());
     std::vector<double> values = options.mesh.measure(mesh);

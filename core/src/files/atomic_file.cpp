@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -238,6 +239,27 @@ void replace_folder(const fs::path& path, const std::map<std::string, std::strin
             refuse_write(path, errno, folder_remedy);
     }
     flush_folder(target.parent_path(), path);
+}
+
+void require_writable(const fs::path& output, std::string_view what,
+                      const std::vector<std::string>& endings) {
+    if (output.empty()) return;
+    const std::string extension = small_extension(output);
+    if (std::find(endings.begin(), endings.end(), extension) == endings.end()) {
+        std::string allowed;
+        for (const std::string& ending : endings) {
+            if (!allowed.empty()) allowed += ending == endings.back() ? " or " : ", ";
+            allowed += ending;
+        }
+        const std::string has = "has the extension " + extension + ", which cannot hold " + std::string(what);
+        refuse_file(output, extension.empty() ? "has no extension" : has, "name it " + allowed);
+    }
+    std::error_code ignored;
+    const fs::path target = follow_links(output);
+    if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) {
+        refuse_file(output, "cannot be written: it is not a regular file", "give the name of a file");
+    }
+    if (::access(folder_of(target).c_str(), W_OK | X_OK) != 0) refuse_write(output, errno, folder_remedy);
 }
 
 void refuse_overwriting(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {

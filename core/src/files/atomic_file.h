@@ -30,6 +30,14 @@ void replace_folder(const std::filesystem::path& path, const std::map<std::strin
 /// Where the links lead, also where nothing is yet: std::filesystem::canonical wants a file at the end.
 std::filesystem::path follow_links(std::filesystem::path path);
 
+/// Refuses an output whose folder is missing or closed, or whose ending is none of `endings` (small, with the dot),
+/// before anything is worked out and before another output of the same command is written. An empty path is passed
+/// over.
+/// @param what  what the file is to hold, for the message
+/// @throws FileError naming the output and the remedy
+void require_writable(const std::filesystem::path& output, std::string_view what,
+                      const std::vector<std::string>& endings);
+
 /// Refuses to write over what was read: an output that is one of the inputs by any path, link or hard link,
 /// or twice the same output. Empty paths are passed over.
 /// @throws FileError naming the output

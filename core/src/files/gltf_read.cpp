@@ -51,6 +51,7 @@ class GltfReader {
         MeshFile file;
         file.mesh = builder_.take();
         file.unit_mm = 1000.0;
+        file.has_y_up = true;  // glTF 2.0, 3.4
         file.sources = document_.sources();
         if (nodes_.meshes_elsewhere > 0) {
             file.notes.push_back(std::to_string(nodes_.meshes_elsewhere) +

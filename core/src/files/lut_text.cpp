@@ -64,8 +64,10 @@ std::array<double, 4> parse_row(std::string_view row, const std::filesystem::pat
     return numbers;
 }
 
-/// "# skinglow:key: value" into the header text; other comments are for people.
+/// "# skinglow:key: value" into the header text; other comments are for people. Spreadsheets give each row as many
+/// commas as the widest has.
 void take_comment(std::string_view line, HeaderText& text) {
+    while (line.ends_with(',')) line.remove_suffix(1);
     line.remove_prefix(1);
     if (line.starts_with(' ')) line.remove_prefix(1);
     const std::size_t end = line.find(": ");
@@ -135,6 +137,7 @@ void write_lut_csv(const std::filesystem::path& path, const LutTable& table) {
 LutFile read_lut_csv(const std::filesystem::path& path) {
     const std::string content = read_whole_file(path, max_csv_bytes);
     std::string_view rest = content;
+    if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // a spreadsheet's
     HeaderText text;
     std::vector<glm::dvec3> colors;
     std::vector<double> thickness;
@@ -144,6 +147,7 @@ LutFile read_lut_csv(const std::filesystem::path& path) {
         std::string_view line = take_until(rest, '\n');
         if (line.ends_with('\r')) line.remove_suffix(1);
         const std::string where = "line " + std::to_string(line_number);
+        if (line.find_first_not_of(',') == std::string_view::npos) continue;  // an empty row
         if (line.starts_with('#')) {
             take_comment(line, text);
         } else if (!header_seen) {

@@ -15,6 +15,7 @@ namespace skinglow::detail {
 struct MeshFile {
     TriangleMesh mesh;                           ///< in the file's unit, axes and order of vertices
     double unit_mm = 1.0;                        ///< length of the format's unit; 1 where the format has none
+    bool has_y_up = false;                       ///< whether the format says that y points up
     std::vector<std::string> notes;              ///< what was left out, for people: "... is not read"
     std::vector<std::filesystem::path> sources;  ///< all files that were read
 };

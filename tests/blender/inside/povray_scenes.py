@@ -183,3 +183,23 @@ def check_povray_not_there_and_its_messages(work):
     lights.write_text(lights.read_text() + "\n#declare Broken = ;\n")
     line = lights.read_text().count("\n")
     refused(sb.SkinError, f"File 'lut.inc' line {line}: ", povray_run.run_povray, work / "exported")
+
+
+def check_region_and_folder_are_told(work):
+    """A part of the picture is not exported; a file that is not saved has nothing next to it."""
+    obj = patch()
+    sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
+    camera_above()
+    bpy.context.scene.render.use_border = True
+    notes = sb.export_povray(depsgraph(), work / "region").notes
+    assert len(notes) == 1 and "The render region is not exported" in notes[0], notes
+    operators = bpy.ops.skinglow
+    obj.select_set(True)
+    bpy.context.view_layer.objects.active = obj
+    before = set(os.listdir())
+    refused(RuntimeError, "Save the file first", operators.export_povray, directory="//beside")
+    refused(RuntimeError, "Save the file first", operators.compare_povray, directory="//beside")
+    assert set(os.listdir()) == before
+    bpy.ops.wm.save_as_mainfile(filepath=str(work / "saved.blend"))
+    assert operators.export_povray(directory="//beside") == {"FINISHED"}
+    assert (work / "beside" / "scene.pov").is_file()

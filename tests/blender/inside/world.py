@@ -166,6 +166,14 @@ def check_bytes(work):
     found = [assert_agrees(work, NORMALS[::4], expected)]
     image_world(image_of(linear, is_float=False, colorspace="Non-Color"))
     found.append(assert_agrees(work, NORMALS[::4], expected))
+    # A picture of half the coverage shows half of each code.
+    image = bpy.data.images.new("Covered", 32, 16, alpha=True)
+    image.pixels.foreach_set(np.tile(np.array((0.8, 0.6, 0.4, 0.5), np.float32), 32 * 16))
+    image.update()
+    image.filepath_raw, image.file_format = str(work / "covered.png"), "PNG"
+    image.save()
+    image_world(bpy.data.images.load(image.filepath_raw))
+    found.append(assert_agrees(work, NORMALS[::4]))
     return found
 
 

@@ -131,9 +131,9 @@ class CountedReads:
     def __enter__(self):
         self.count, self.original = 0, world_image.linear_pixels
 
-        def counting(image):
+        def counting(image, **options):
             self.count += 1
-            return self.original(image)
+            return self.original(image, **options)
 
         world_image.linear_pixels = counting
         return self
