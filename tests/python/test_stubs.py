@@ -1,12 +1,14 @@
 """The stubs and the list of public names say what the compiled modules hold."""
 
 import ast
+import typing
 from functools import cache
 from pathlib import Path
 
 import pytest
 import skinglow._core as core
 from skinglow._rays_loader import load_rays
+from skinglow._renamed import renamed_keywords
 
 PACKAGE = Path(__file__).parents[2] / "python_bindings" / "skinglow"
 #: The types of methods that pybind11 makes.
@@ -188,3 +190,9 @@ def test_stub_of_the_rays_is_that_of_the_module() -> None:
         for key, value in made.items():
             if type(value).__name__ in METHODS and key != "__len__":
                 assert parameters(methods[key][0]) == parameters(bound_signature(value)), key
+
+
+def test_a_function_with_former_keywords_keeps_its_type():
+    """To type checkers `thickness` was Any: neither its arguments nor its result were checked."""
+    ((given,), returned) = typing.get_args(typing.get_type_hints(renamed_keywords)["return"])
+    assert isinstance(given, typing.TypeVar) and given is returned
