@@ -25,6 +25,7 @@ from .commands.thickness_map import BakedThickness
 from .errors import SkinError
 from .live import handlers
 from .live.rebuilt import Rebuilt
+from .script_arguments import check_of
 from .show import image_pairs, material_settings, subsurface
 from .ui import (
     farm_operators,
@@ -146,9 +147,12 @@ def unregister() -> None:
 
 
 def _registering(function: Callable[..., Any]) -> Callable[..., Any]:
+    check = check_of(function)
+
     @wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:  # noqa: ANN401
         register()
+        check(args, kwargs)
         return function(*args, **kwargs)
 
     return call

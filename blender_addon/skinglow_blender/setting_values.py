@@ -42,12 +42,23 @@ def _apply(settings: SkinSettings, name: str, value: Any) -> None:  # noqa: ANN4
         raise ValueError(f"make_skin has no setting '{name}'; it has: {', '.join(SETTING_NAMES)}")
     rna = settings.bl_rna.properties[name]
     upper = rna.type == "ENUM" and isinstance(value, str)
+    given = value
     try:
         if rna.type in ("INT", "FLOAT"):
             _check_range(rna, value)
-        setattr(settings, name, ALIASES.get(name, {}).get(value.upper(), value.upper()) if upper else value)
+        if upper:
+            value = _choice(rna, ALIASES.get(name, {}).get(value.upper(), value.upper()))
+        setattr(settings, name, value)
     except (TypeError, ValueError, OverflowError) as error:
-        raise ValueError(f"make_skin: {name} = {value!r} is not allowed: {error}") from error
+        raise ValueError(f"make_skin: {name} = {given!r} is not allowed: {error}") from error
+
+
+def _choice(rna: bpy.types.Property, value: str) -> str:
+    """The value, if it is one; choices that are made as they are shown are left to Blender."""
+    names = [item.identifier for item in rna.enum_items]
+    if names and value not in names:
+        raise ValueError(f"it has to be one of {', '.join(names)}")
+    return value
 
 
 def _check_range(rna: bpy.types.Property, value: Any) -> None:  # noqa: ANN401

@@ -19,8 +19,8 @@ SAME_FACTOR = 1e-4
 
 
 def luminance(colors: ArrayLike) -> NDArray[np.float64]:
-    """Luminance of linear Rec.709 colors (..., 3), (...), at least 0 (ITU-R BT.709-6)."""
-    return np.maximum(real_numbers("colors", colors) @ LUMINANCE, 0.0)
+    """Luminance of linear Rec.709 colors (..., 3), (...), at least 0 (ITU-R BT.709-6); else ValueError."""
+    return np.maximum(_of_shape("colors", colors, "(..., 3)") @ LUMINANCE, 0.0)
 
 
 def diffuse_radiance(exitance: ArrayLike) -> NDArray[np.float64]:
@@ -32,8 +32,9 @@ def visible_entries(table: ArrayLike, threshold: float = 1.0 / 255.0) -> int:
     """Number of entries of a table (size, 3), thin skin first, up to the last that a picture shows; at least 1.
 
     threshold  the brightest channel from which an entry is visible, as a fraction of the table's brightest
+    Raises ValueError for a table of another shape.
     """
-    brightest = real_numbers("table", table).max(axis=1)
+    brightest = _of_shape("table", table, "(size, 3), not empty").max(axis=1)
     visible = np.flatnonzero(brightest > threshold * max(brightest.max(), 0.0))
     return int(visible[-1]) + 1 if len(visible) else 1
 
@@ -43,7 +44,11 @@ def stratified_indices(count: int, samples: int) -> NDArray[np.int64]:
 
     One random index per stratum. Neighbors in a mesh's order mostly are neighbors in space, while equal steps could
     follow a grid's columns. Half the error of independent random samples (measured on a scanned head).
+    Raises ValueError for a count below 0 or less than one sample.
     """
+    for name, number, least in (("count", count, 0), ("samples", samples, 1)):
+        if not number >= least:
+            raise ValueError(f"{name} is {number!r}; allowed: {least} or more")
     if count <= samples:
         return np.arange(count)
     within = np.random.default_rng(SEED).random(samples)
@@ -53,10 +58,12 @@ def stratified_indices(count: int, samples: int) -> NDArray[np.int64]:
 def uniform_scale(before: ArrayLike, after: ArrayLike) -> float | None:
     """Factor by which points were scaled, whatever else turned and moved them as a whole.
 
-    before, after  (n, 3)
+    before, after  (n, 3), else ValueError
     Returns None if no one factor explains the distances between successive points, or if there are none.
     """
-    both = real_numbers("before", before), real_numbers("after", after)
+    both = _of_shape("before", before, "(n, 3)"), _of_shape("after", after, "(n, 3)")
+    if len(both[0]) != len(both[1]):
+        raise ValueError(f"after is of shape {both[1].shape}; allowed: that of before, {both[0].shape}")
     then, now = (np.linalg.norm(np.diff(points, axis=0), axis=1) for points in both)
     apart = then > 0.0
     if not apart.any():
@@ -84,6 +91,15 @@ def light_rotation(light: "Light") -> NDArray[np.float64]:
             break
     x_axis /= np.linalg.norm(x_axis)
     return np.column_stack((x_axis, np.cross(z_axis, x_axis), z_axis))
+
+
+def _of_shape(name: str, given: ArrayLike, shape: str) -> NDArray[np.float64]:
+    """Numbers of a shape that ends with 3, of two dimensions unless it begins with "..."."""
+    numbers = real_numbers(name, given)
+    fits = numbers.ndim > 0 and numbers.shape[-1] == 3 and (shape.startswith("(...") or numbers.ndim == 2)
+    if not fits or ("not empty" in shape and not numbers.size):
+        raise ValueError(f"{name} is of shape {numbers.shape}; allowed: shape {shape}")
+    return numbers
 
 
 def _unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:

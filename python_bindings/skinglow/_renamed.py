@@ -3,7 +3,9 @@
 import functools
 import warnings
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar, cast
+
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 RENAMED = {
     "LightTree": "PreparedRig",
@@ -35,10 +37,13 @@ def __getattr__(name: str) -> object:
     return getattr(skinglow, RENAMED[name])
 
 
-def renamed_keywords(**new_names: str) -> Callable[[Callable[..., Any]], Any]:
-    """A decorator by which a function also takes keywords by their former names: `@renamed_keywords(old="new")`."""
+def renamed_keywords(**new_names: str) -> Callable[[Function], Function]:
+    """A decorator by which a function also takes keywords by their former names: `@renamed_keywords(old="new")`.
 
-    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+    To type checkers it stays what it is.
+    """
+
+    def decorate(function: Function) -> Function:
         @functools.wraps(function)
         def call(*arguments: Any, **keywords: Any) -> Any:  # noqa: ANN401
             for old in new_names.keys() & keywords.keys():
@@ -49,6 +54,6 @@ def renamed_keywords(**new_names: str) -> Callable[[Callable[..., Any]], Any]:
                 keywords[new] = keywords.pop(old)
             return function(*arguments, **keywords)
 
-        return call
+        return cast(Function, call)
 
     return decorate

@@ -194,6 +194,8 @@ class Shape:
         moved. The result is that of a call without it, to solver_tolerance.
         """
         scene = None if occluders is None else occluders._scene
+        if not isinstance(previous, LitShape | None):
+            raise ValueError(f"previous is {previous!r}; allowed: what light() of this shape returned, or None")
         before = None if previous is None else previous._lit
         return LitShape(
             self._shape.light(

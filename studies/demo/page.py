@@ -146,7 +146,7 @@ def _section(name: str, text: str, *content: str) -> str:
 
 
 def _picture(file: str, title: str, made_with: str, kind: str = "") -> str:
-    image = f"<a href={file}><img src={file} alt='{title}' loading=lazy></a>"
+    image = f"<a href={file}><img src={file} alt='{escape(title)}' loading=lazy></a>"
     return (
         f"<figure class='{kind}'><div class=wide>{image}</div><figcaption>{title}. {made_with}.</figcaption></figure>"
     )

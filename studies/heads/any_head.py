@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from studies.heads.ears import MEAN_WIDTH_MM, WIDTH_MM, Ear, HeadSize, find_ears, measure, unit_by_size
 from studies.heads.human_head import HeadError
 from studies.heads.orientation import OF_FORMAT, Guess, Orientation, guess, normalized
+from studies.heads.pieces import split
 from studies.heads.samples import Array, Samples, sample
 
 #: Of an ear that was not measured.
@@ -18,6 +19,8 @@ EAR_HEIGHT_M = 0.06
 KNOWN_UNITS_MM = {"LeePerrySmith.glb": 50.35}
 #: Formats whose axes are part of the standard: a guess does not overrule them.
 STRICT = (".glb", ".gltf")
+#: Where the head is less of the height than that it is a body's, and looked at alone, with so much of its height below.
+BODY, NECK = 0.4, 0.4
 
 
 @dataclass
@@ -30,6 +33,8 @@ class Placed:
     ears: list[Ear]  # meters; none if none were found
     samples: Samples  # meters, Z up, facing -Y
     said: list[str] = field(default_factory=list)  # sentences for the terminal
+    #: (m,) of the triangles: what lies about the head, and is no part of it.
+    away: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, bool))
 
     @property
     def left_ear(self) -> Ear:
@@ -65,12 +70,18 @@ def place_head(
     if unit_mm is not None and not 0.0 < unit_mm < np.inf:
         raise HeadError(f"--unit is {unit_mm}; allowed: millimeters per unit of the file, above 0")
     try:
-        found = sample(vertices, triangles)
+        pieces = split(vertices, triangles)
+        found = sample(vertices, triangles[pieces.counts])
     except ValueError:
         raise HeadError(f"{name}: has no surface; export the head as triangles or quads") from None
     orientation, said = _orientation(found, name, up, facing)
+    if pieces.away_count:
+        said.append(f"note: {_pieces(pieces.away_count)} away from the head in {name}; left out")
     turned = found.turned(orientation.rotation())
     size = measure(turned)
+    if size.top - size.bottom < BODY * np.ptp(turned.points[:, 2]):
+        turned = _head_alone(vertices, triangles[~pieces.away], orientation, size)
+        size = measure(turned)
     unit, sentence = _unit(size.width, name, unit_mm)
     said += [sentence] if sentence else []
     meters = turned.scaled(unit / 1000.0)
@@ -81,7 +92,19 @@ def place_head(
     else:
         ears = find_ears(meters, size)
         said.append(_about_ears(ears, name))
-    return Placed(orientation, unit, size, ears, meters, said)
+    return Placed(orientation, unit, size, ears, meters, said, pieces.away)
+
+
+def _pieces(count: int) -> str:
+    return f"{count:,} pieces lie" if count > 1 else "a piece lies"
+
+
+def _head_alone(vertices: Array, triangles: NDArray[np.integer], orientation: Orientation, size: HeadSize) -> Samples:
+    """Samples, turned, of the head of a body: of all of the body too few are of its ears."""
+    rotation = orientation.rotation()
+    height = (vertices @ rotation[2])[triangles].mean(axis=1)
+    head = triangles[height > size.bottom - NECK * (size.top - size.bottom)]
+    return sample(vertices, head[split(vertices, head).counts]).turned(rotation)
 
 
 def _orientation(found: Samples, name: str, up: str | None, facing: str | None) -> tuple[Orientation, list[str]]:
@@ -102,7 +125,7 @@ def _orientation(found: Samples, name: str, up: str | None, facing: str | None) 
         taken, reason = Orientation(*usual), f"as {suffix[1:]} files have it"
         if best.is_sure and best.orientation != taken:
             said.append(_doubt(name, best))
-    elif not best.is_sure:
+    if not best.is_sure and suffix not in STRICT:
         said.append(f"note: {name} could stand another way too; look at the preview")
     said.insert(0, f"{name}: {taken.up} is up and it faces {taken.facing}, {reason}; --up and --facing overrule that")
     return taken, said

@@ -16,6 +16,8 @@ WIDTH_MM, MEAN_WIDTH_MM = (95.0, 200.0), 152.0
 UNITS_MM = {1000.0: "meters", 1.0: "millimeters", 10.0: "centimeters", 100.0: "decimeters", 25.4: "inches"}
 #: An ear stands out from the head by this much over an area of this size, in widths of the head.
 EAR_STANDS_OUT, EAR_AREA = 0.02, (0.012, 0.3)
+#: An ear is 0.33 to 0.41 widths high; what is higher is a bun, a collar or a strand.
+EAR_HEIGHT = 0.55
 #: It is that far from the middle; a ball of that radius fits into the skull, and not into an ear. Widths, too.
 FROM_MIDDLE, BALL = 0.36, 0.3
 CELLS = 64
@@ -85,20 +87,34 @@ def _ear(points: Array, head: HeadSize, side: float) -> Ear | None:
     bend = 0.5 * cell / (BALL * head.width) * cell * np.arange(-radius, radius + 1) ** 2
     skull = _window(_window(side_view, bend, np.min), -bend, np.max)
     ear = (side_view - skull > EAR_STANDS_OUT * head.width) & (side_view > FROM_MIDDLE * head.width)
-    ear = _largest(ear)
-    area = ear.sum() * cell**2 / head.width**2
-    if not EAR_AREA[0] < area < EAR_AREA[1]:
-        return None
-    index = np.argwhere(ear)
-    low, high = index.min(axis=0), index.max(axis=0) + 1
-    size = float((high - low)[1] * cell)
-    y, z = 0.5 * (low + high) * cell + (y0, head.bottom)
-    return Ear(np.array([head.middle_x + side * float(side_view[ear].mean()), y, z]), size, side)
+    for part in _parts(ear):
+        area = part.sum() * cell**2 / head.width**2
+        index = np.argwhere(part)
+        low, high = index.min(axis=0), index.max(axis=0) + 1
+        size = float((high - low)[1] * cell)
+        if EAR_AREA[0] < area < EAR_AREA[1] and size < EAR_HEIGHT * head.width:
+            y, z = 0.5 * (low + high) * cell + (y0, head.bottom)
+            return Ear(np.array([head.middle_x + side * float(side_view[part].mean()), y, z]), size, side)
+    return None
 
 
 def _filled(image: Array) -> Array:
-    """Cells that no point fell into take what is about them."""
+    """Holes, which no point fell into, take what is about them: a ball would fall in. About the head there is 0."""
+    known = np.isfinite(image)
+    outside = np.pad(np.zeros_like(known), 1, constant_values=True)
+    empty = np.pad(~known, 1, constant_values=True)
+    while True:
+        spread = empty & (_window(outside.astype(float), NEXT, np.max) > 0.0)
+        if (spread == outside).all():
+            break
+        outside = spread
+    known |= outside[1:-1, 1:-1]
     image = np.where(np.isfinite(image), image, 0.0)
+    while not known.all():
+        around = _window(np.where(known, image, -np.inf), NEXT, np.max)
+        image = np.where(known, image, around)
+        known = np.isfinite(around) | known
+        image = np.where(known, image, 0.0)
     return _window(_window(image, NEXT, np.max), NEXT, np.min)
 
 
@@ -116,18 +132,16 @@ def _window(image: Array, bend: Array, of: Callable[..., Array]) -> Array:
 NEXT = np.zeros(3)
 
 
-def _largest(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """The largest connected part."""
+def _parts(mask: NDArray[np.bool_]) -> list[NDArray[np.bool_]]:
+    """The connected parts, the largest first."""
     label = np.where(mask, np.arange(1, mask.size + 1).reshape(mask.shape), 0)
     while True:
         spread = np.where(mask, _window(label, NEXT, np.max), 0)
         if (spread == label).all():
             break
         label = spread
-    if not mask.any():
-        return mask
     values, counts = np.unique(label[mask], return_counts=True)
-    return label == values[counts.argmax()]
+    return [label == value for value in values[np.argsort(-counts, kind="stable")]]
 
 
 def unit_by_size(width: float) -> tuple[float, str] | None:

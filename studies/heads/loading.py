@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ import bmesh
 import bpy
 import numpy as np
 from mathutils import Matrix
+from numpy.typing import NDArray
 
 # isort: on
 from studies.heads import human_head, person_materials, portrait
@@ -47,6 +49,7 @@ def load(job: dict[str, Any]) -> tuple[bpy.types.Object, Placed]:
     else:
         head, name, axes = _import(Path(job["mesh"])), Path(job["mesh"]).name, _axes(Path(job["mesh"]))
     placed = _placed(head, name, axes, options)
+    _leave_out(head.data, placed.away)
     matrix = np.eye(4)
     matrix[:3, :3] = placed.matrix() @ axes.T
     head.data.transform(Matrix(matrix.tolist()))
@@ -77,17 +80,21 @@ def skin_slots(head: bpy.types.Object) -> list[int]:
 
 
 def _axes(path: Path) -> Array:
-    return AS_IT_IS if path.suffix.lower() == ".ply" else Y_UP
+    return AS_IT_IS if path.suffix.lower() in (".ply", ".stl") else Y_UP
 
 
 def _placed(head: bpy.types.Object, name: str, axes: Array, options: dict[str, Any]) -> Placed:
     mesh = head.data
-    mesh.calc_loop_triangles()
     vertices = np.empty((len(mesh.vertices), 3), np.float32)
     mesh.vertices.foreach_get("co", vertices.ravel())
+    return place_head(vertices.astype(float) @ axes, _triangles(mesh), name, **options)
+
+
+def _triangles(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
+    mesh.calc_loop_triangles()
     triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
     mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
-    return place_head(vertices.astype(float) @ axes, triangles, name, **options)
+    return triangles
 
 
 def _import(path: Path) -> bpy.types.Object:
@@ -96,36 +103,74 @@ def _import(path: Path) -> bpy.types.Object:
     try:
         _importer(path)(filepath=str(path))
     except RuntimeError as error:
-        why = str(error).strip().removeprefix("Error: ")
-        raise HeadError(f"{path.name}: Blender could not read it ({why}); export it again") from None
+        raise HeadError(f"{path.name}: Blender could not read it ({_reason(str(error))}); export it again") from None
     new = [thing for thing in bpy.data.objects if thing not in before]
-    meshes = [thing for thing in new if thing.type == "MESH" and len(thing.data.polygons)]
+    meshes = [thing for thing in new if thing.type == "MESH" and len(thing.data.polygons) and not _is_aid(thing)]
     if not meshes:
         raise HeadError(f"{path.name}: contains no mesh with faces")
+    others, head = [thing for thing in new if thing not in meshes], meshes[0]
     for thing in meshes:
-        thing.data.transform(thing.matrix_world)
-    for thing in meshes:
-        thing.parent, thing.matrix_world = None, Matrix()
-        if thing.name not in bpy.context.scene.collection.objects:
-            bpy.context.scene.collection.objects.link(thing)
+        _stand_still(thing)
     if len(meshes) > 1:
-        with bpy.context.temp_override(active_object=meshes[0], selected_editable_objects=meshes):
-            bpy.ops.object.join()
-    for thing in new:
-        if thing is not meshes[0] and thing.name in bpy.data.objects:
-            bpy.data.objects.remove(thing)
-    return meshes[0]
+        with bpy.context.temp_override(active_object=head, selected_editable_objects=meshes):
+            bpy.ops.object.join()  # all but the head are gone then
+    for thing in others:
+        bpy.data.objects.remove(thing)
+    return head
+
+
+def _reason(error: str) -> str:
+    """Of an importer's message; of a traceback, the exception, unless Blender cut it off."""
+    if "Traceback" not in error:
+        return error.strip().removeprefix("Error: ")
+    raised = re.findall(r"^[\w.]+(?:Error|Exception)\b.*", error, re.MULTILINE)
+    return raised[-1].strip() if raised else "it is damaged, or of another format than its name says"
+
+
+def _is_aid(thing: bpy.types.Object) -> bool:
+    """The shape of bones, which the glTF importer adds."""
+    return any(collection.name.startswith("glTF_not_exported") for collection in thing.users_collection)
+
+
+def _stand_still(thing: bpy.types.Object) -> None:
+    """A mesh of its own, at rest, where it is: without shape keys, bones and parents."""
+    if thing.data.users > 1:
+        thing.data = thing.data.copy()
+    if thing.data.shape_keys:
+        thing.shape_key_clear()
+    thing.modifiers.clear()
+    thing.data.transform(thing.matrix_world)
+    world = bpy.context.scene.collection
+    thing.parent, thing.matrix_world = None, Matrix()
+    if thing.name not in world.objects:
+        world.objects.link(thing)
 
 
 def _importer(path: Path) -> Callable[..., object]:
     suffix = path.suffix.lower()
     if suffix in (".glb", ".gltf"):
+        if not hasattr(np, "bool"):
+            np.bool = bool  # type: ignore[misc]  # Blender 3.4's importer asks for it; numpy 1.24, in Debian, has none
         return bpy.ops.import_scene.gltf
     if suffix == ".obj" and bpy.app.version >= (3, 3, 0):
         return bpy.ops.wm.obj_import
     if suffix == ".ply":
         return bpy.ops.wm.ply_import if bpy.app.version >= (3, 6, 0) else bpy.ops.import_mesh.ply
-    raise HeadError(f"{path.name}: this file format is not read; allowed: .glb, .gltf, .obj, .ply")
+    if suffix == ".stl":
+        return bpy.ops.wm.stl_import if bpy.app.version >= (4, 1, 0) else bpy.ops.import_mesh.stl
+    raise HeadError(f"{path.name}: this file format is not read; allowed: .glb, .gltf, .obj, .ply, .stl")
+
+
+def _leave_out(mesh: bpy.types.Mesh, away: NDArray[np.bool_]) -> None:
+    """Deletes pieces of the mesh, given by its triangles, with their vertices."""
+    if not away.any():
+        return
+    loose = set(_triangles(mesh)[away].ravel().tolist())
+    work = bmesh.new()
+    work.from_mesh(mesh)
+    bmesh.ops.delete(work, geom=[vertex for vertex in work.verts if vertex.index in loose], context="VERTS")
+    work.to_mesh(mesh)
+    work.free()
 
 
 def _clean(mesh: bpy.types.Mesh) -> None:

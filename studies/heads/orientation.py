@@ -8,6 +8,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from studies.heads.ears import measure
 from studies.heads.samples import Array, Samples
 
 AXES = ("+X", "-X", "+Y", "-Y", "+Z", "-Z")
@@ -17,12 +18,16 @@ OF_FORMAT: dict[str, tuple[str, str] | None] = {
     ".gltf": ("+Y", "+Z"),
     ".obj": ("+Y", "+Z"),
     ".ply": None,
+    ".stl": None,
 }
 #: A guess is sure where its score is that much above the next one's.
 SURE = 0.12
 #: What is less like its mirror image than that is no whole head; nor is a shell, whose normals have that mean or more:
 #: a face without the back of the head. Guesses of both are never sure.
 ASYMMETRIC, SHELL = 0.4, 0.3
+#: What has such a short side for its longest is a person from head to foot, or a mask: no guess is sure either. Of a
+#: person's head so many points are needed.
+SHORT_SIDE, LEAST_POINTS = 0.28, 500
 
 
 @dataclass(frozen=True)
@@ -66,6 +71,21 @@ def normalized(name: str) -> str:
 
 def guess(samples: Samples, up: str | None = None, facing: str | None = None) -> Guess:
     """Of all 24 ways, or those that are left by what is given, the one that looks most like a head that stands up."""
+    best = _guess(samples, up, facing)
+    sides = np.ptp(samples.points, axis=0)
+    if sides.min() > SHORT_SIDE * sides.max():
+        return best
+    # The face tells where a body looks.
+    rotation = best.orientation.rotation()
+    turned = samples.turned(rotation)
+    size = measure(turned)
+    head = samples.where(turned.points[:, 2] > size.bottom, turned.border[:, 2] > size.bottom)
+    if len(head.points) > LEAST_POINTS:
+        best = _guess(head, best.orientation.up, facing)
+    return Guess(best.orientation, 0.0)
+
+
+def _guess(samples: Samples, up: str | None, facing: str | None) -> Guess:
     middle = samples.points.mean(axis=0)
     size = float(np.sqrt(((samples.points - middle) ** 2).sum(axis=1).mean()))
     unit = Samples((samples.points - middle) / size, samples.normals, (samples.border - middle) / size)

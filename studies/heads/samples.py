@@ -25,6 +25,10 @@ class Samples:
         """Each point p as rotation @ p."""
         return Samples(self.points @ rotation.T, self.normals @ rotation.T, self.border @ rotation.T)
 
+    def where(self, points: NDArray[np.bool_], border: NDArray[np.bool_]) -> Samples:
+        """Those points, and those of the border."""
+        return Samples(self.points[points], self.normals[points], self.border[border])
+
     def scaled(self, factor: float) -> Samples:
         return Samples(self.points * factor, self.normals, self.border * factor)
 
@@ -47,13 +51,18 @@ def sample(vertices: Array, triangles: NDArray[np.integer], count: int = COUNT) 
     return Samples(points, cross[of] / area[of, None], _border(vertices, triangles))
 
 
-def _border(vertices: Array, triangles: NDArray[np.integer]) -> Array:
-    """Middles of edges with one triangle. Vertices at one position are one: seams of a UV map are no border."""
+def welded(vertices: Array, triangles: NDArray[np.integer]) -> NDArray[np.integer]:
+    """(m, 3): the corners of the triangles, vertices at one position as one: seams of a UV map hang together."""
     _, position_of = np.unique(
         np.round(vertices / (1e-6 * np.ptp(vertices, axis=0).max())), axis=0, return_inverse=True
     )
-    welded = position_of.ravel()[triangles]
-    edges = np.sort(np.concatenate([welded[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
+    return position_of.ravel()[triangles]
+
+
+def _border(vertices: Array, triangles: NDArray[np.integer]) -> Array:
+    """Middles of edges with one triangle; seams are no border."""
+    corners = welded(vertices, triangles)
+    edges = np.sort(np.concatenate([corners[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
     original = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
     _, first, times = np.unique(edges, axis=0, return_index=True, return_counts=True)
     return vertices[original[first[times == 1]]].mean(axis=1)

@@ -36,7 +36,7 @@ def head_job(mesh: str | None, progress: Progress, **options: Any) -> dict[str, 
     elif mesh != SUZANNE:
         path = Path(mesh).resolve()
         if not path.is_file():
-            raise StudyError(f"{mesh}: no such file; give a GLB, OBJ or PLY mesh, or `--mesh suzanne`")
+            raise StudyError(f"{mesh}: no such file; give a GLB, OBJ, PLY or STL mesh, or `--mesh suzanne`")
         job["mesh"] = str(path)
     return job
 

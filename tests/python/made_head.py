@@ -34,6 +34,20 @@ def head(ears=("left", "right"), detail=48):
         tube(-0.13, 0.02, 0.055, detail),
     ]
     parts += [ball((side, 0.01, 0.045), (0.016, 0.014, 0.031), detail // 2) for side in _sides(ears)]
+    return joined(parts)
+
+
+def body():
+    """The head on a person with the arms held out."""
+    parts = [head(), ball((0.0, 0.01, -0.40), (0.19, 0.10, 0.32))]
+    for side in (1.0, -1.0):
+        parts.append(ball((0.45 * side, 0.01, -0.22), (0.33, 0.045, 0.045)))
+        parts.append(ball((0.09 * side, 0.01, -1.02), (0.075, 0.085, 0.45)))
+        parts.append(ball((0.09 * side, -0.05, -1.45), (0.045, 0.12, 0.035)))
+    return joined(parts)
+
+
+def joined(parts):
     vertices, triangles, count = [], [], 0
     for points, corners in parts:
         vertices.append(points)

@@ -53,6 +53,28 @@ def test_uniform_scale_of_what_has_none() -> None:
     assert sg.uniform_scale(np.eye(3), np.zeros((3, 3))) is None
 
 
+@pytest.mark.parametrize(
+    ("call", "told"),
+    [
+        (lambda: sg.luminance((1.0, 2.0)), r"colors is of shape \(2,\); allowed: shape \(\.\.\., 3\)"),
+        (lambda: sg.luminance(1.0), r"colors is of shape \(\)"),
+        (
+            lambda: sg.visible_entries(np.zeros((0, 3))),
+            r"table is of shape \(0, 3\); allowed: shape \(size, 3\), not empty",
+        ),
+        (lambda: sg.visible_entries((1.0, 2.0, 3.0)), r"table is of shape \(3,\)"),
+        (lambda: sg.uniform_scale(np.eye(4), np.eye(4)), r"before is of shape \(4, 4\); allowed: shape \(n, 3\)"),
+        (lambda: sg.uniform_scale(np.eye(3), np.ones((4, 3))), r"after is of shape \(4, 3\); allowed: that of before"),
+        (lambda: sg.stratified_indices(10, 0), "samples is 0; allowed: 1 or more"),
+        (lambda: sg.stratified_indices(-1, 3), "count is -1; allowed: 0 or more"),
+    ],
+)
+def test_other_shapes_are_told_with_what_is_allowed(call, told: str) -> None:
+    """It was numpy that told, of gufunc signatures and axes."""
+    with pytest.raises(ValueError, match=told):
+        call()
+
+
 @pytest.mark.parametrize("kind", ["SPOT", "AREA", "SUN"])
 @pytest.mark.parametrize("direction", [(0, 0, -1), (0, 0, 1), (1, 0, 0), (-1, 0, 0), (0.3, -2.0, 1.0)])
 def test_light_rotation_points_the_light(kind: str, direction: tuple[float, ...]) -> None:

@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import trimesh
-from made_head import head
+from made_head import ball, body, head
 
 from studies.heads import preview
 from studies.heads.any_head import place_head
@@ -72,6 +72,71 @@ def test_ears_are_found_and_missing_ones_told():
     none = place_head(*head(ears=[]), "head.ply")
     assert none.ears == []
     assert any("no ear was found" in sentence and "--ear" in sentence for sentence in none.said)
+
+
+@pytest.mark.parametrize("radius", [0.004, 0.012])
+def test_holes_of_a_scan_are_no_ears(radius):
+    """What a hole left of the side of the head was taken for an ear of 10 to 13 cm, or there was none."""
+    vertices, triangles = head(detail=96)
+    middles = vertices[triangles].mean(axis=1)
+    for side, y, z in product((-0.07, 0.07), (-0.03, 0.045), (0.06, 0.1)):
+        beside = np.linalg.norm(middles[:, 1:] - (y, z), axis=1) < radius
+        kept = ~(beside & (np.sign(middles[:, 0]) == np.sign(side)))
+        triangles, middles = triangles[kept], middles[kept]
+    placed = place_head(vertices, triangles, "head.ply", up="z", facing="-y")
+    assert {ear.side for ear in placed.ears} == {1.0, -1.0}
+    for ear in placed.ears:
+        assert ear.center == pytest.approx([0.088 * ear.side, 0.01, 0.045], abs=0.012)
+        assert ear.size == pytest.approx(0.062, abs=0.012)
+
+
+def test_a_bun_is_no_ear():
+    vertices, triangles = head(ears=[])
+    bun, corners = ball((0.06, 0.05, 0.06), (0.035, 0.05, 0.06))
+    vertices, triangles = np.concatenate([vertices, bun]), np.concatenate([triangles, corners + len(vertices)])
+    assert place_head(vertices, triangles, "head.ply", up="z", facing="-y").ears == []
+
+
+@pytest.mark.parametrize("name", ["scan.ply", "scan.obj"])
+def test_what_lies_about_a_head_is_left_out_and_told(name):
+    """Ten specks beside a scan turned it over, for sure, and halved its size."""
+    vertices, triangles = head()
+    random = np.random.default_rng(3)
+    specks = vertices.max(axis=0) + 0.3 + 0.01 * random.random((30, 3))
+    corners = len(vertices) + np.arange(30).reshape(-1, 3)
+    way = Orientation("+Y", "+Z")
+    both = as_file(np.concatenate([vertices, specks]), way), np.concatenate([triangles, corners])
+    placed = place_head(*both, name)
+    assert placed.orientation == way
+    assert placed.unit_mm == 1000.0
+    assert len(placed.ears) == 2
+    assert any("10 pieces lie away from the head" in sentence for sentence in placed.said)
+    assert placed.away.tolist() == [False] * len(triangles) + [True] * 10
+
+
+def test_a_soup_of_triangles_is_a_head():
+    vertices, triangles = head()
+    random = np.random.default_rng(3)
+    apart = vertices[triangles].reshape(-1, 3) * (1.0 + 1e-4 * random.random((3 * len(triangles), 1)))
+    placed = place_head(apart, np.arange(len(apart)).reshape(-1, 3), "scan.ply")
+    assert placed.orientation == Orientation("+Z", "-Y")
+    assert not placed.away.any()
+
+
+@pytest.mark.parametrize(
+    ("name", "way", "up"), [("person.obj", Orientation("+Y", "+Z"), None), ("person.ply", Orientation("+Z", "-Y"), "z")]
+)
+def test_of_a_whole_body_the_head_is_looked_at(name, way, up):
+    """No ear was found, or it was turned over for sure."""
+    vertices, triangles = body()
+    placed = place_head(100.0 * as_file(vertices, way), triangles, name, up=up)
+    assert placed.orientation == way
+    assert placed.unit_mm == 10.0
+    assert placed.size.width == pytest.approx(0.16, abs=0.015)
+    assert {ear.side for ear in placed.ears} == {1.0, -1.0}
+    for ear in placed.ears:
+        assert ear.center == pytest.approx([0.088 * ear.side, 0.01, 0.045], abs=0.012)
+    assert any("could stand another way too" in sentence for sentence in placed.said)
 
 
 def test_an_ear_that_is_given_is_taken():

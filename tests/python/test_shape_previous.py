@@ -144,3 +144,8 @@ def test_an_answer_of_another_shape_is_of_no_use(made):
 def test_a_tolerance_that_is_not_allowed_is_refused(made, tolerance):
     with pytest.raises(ValueError, match=r"solver_tolerance is .*; allowed: 1e-6 to 0\.5"):
         made.light(lights(1), solver_tolerance=tolerance)
+
+
+def test_what_is_no_earlier_answer_is_told():
+    with pytest.raises(ValueError, match=r"previous is 3; allowed: what light\(\) of this shape returned, or None"):
+        shape(None).light(lights(1), previous=3)

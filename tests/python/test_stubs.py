@@ -1,6 +1,7 @@
 """The stubs and the list of public names say what the compiled modules hold."""
 
 import ast
+import typing
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -9,6 +10,7 @@ import pytest
 import skinglow._core as core
 from skinglow import _results
 from skinglow._rays_loader import load_rays
+from skinglow._renamed import renamed_keywords
 
 PACKAGE = Path(__file__).parents[2] / "python_bindings" / "skinglow"
 #: The types of methods that pybind11 makes.
@@ -207,3 +209,9 @@ def test_stub_of_the_rays_is_that_of_the_module() -> None:
 )
 def test_dictionaries_are_as_described(made: Callable[[], dict], described: type) -> None:
     assert set(made()) == set(described.__annotations__)
+
+
+def test_a_function_with_former_keywords_keeps_its_type():
+    """To type checkers `thickness` was Any: neither its arguments nor its result were checked."""
+    ((given,), returned) = typing.get_args(typing.get_type_hints(renamed_keywords)["return"])
+    assert isinstance(given, typing.TypeVar) and given is returned

@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
@@ -90,6 +91,16 @@ def test_a_page_without_the_section_is_told(tmp_path):
         fill(path, {"there": "new"})
 
 
+class Images(HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.found = []
+
+    def handle_starttag(self, tag, attrs):
+        if tag == "img":
+            self.found.append(dict(attrs))
+
+
 def test_the_page_of_the_demo_shows_only_what_is_in_its_folder(tmp_path):
     light = {"name": "<Bulb>", "distance": None, "weight": (0.1, 0.2, 0.3), "share": 1.0, "reason": None}
     numbers = {
@@ -105,6 +116,12 @@ def test_the_page_of_the_demo_shows_only_what_is_in_its_folder(tmp_path):
     page.write(tmp_path, numbers)
     text = (tmp_path / "index.html").read_text()
     assert "&lt;Bulb&gt;" in text and "A &amp; B" in text
+    images = Images()
+    images.feed(text)
+    assert all(
+        set(image) == {"src", "alt", "loading"} or image["src"] == "physical_surface_ear.png" for image in images.found
+    )
+    assert "Blender's rim lights, or those of --rig" in [image["alt"] for image in images.found]
     shown = re.findall(r"(?:src=|url\()([\w./]+)", text)
     assert {name for name in shown if "/" in name} == {
         f"from_docs/{path.name}" for path in tmp_path.glob("from_docs/*")
@@ -119,6 +136,7 @@ def test_what_the_demo_tells_to_have_spent_is_without_the_build(tmp_path):
     project = tmp_path / "project"
     (project / "build" / "envs" / "tools" / "bin").mkdir(parents=True)
     shutil.copytree(ROOT / "scripts", project / "scripts")
+    (project / "studies").symlink_to(ROOT / "studies")
     for name in ("setup", "build"):
         (project / "scripts" / name).write_text("for ((i = 0; i < 300000; i++)); do :; done\n")
     python = project / "build" / "envs" / "tools" / "bin" / "python"
@@ -129,3 +147,42 @@ def test_what_the_demo_tells_to_have_spent_is_without_the_build(tmp_path):
     python.chmod(0o755)
     done = subprocess.run(["bash", project / "scripts" / "demo"], capture_output=True, text=True, cwd=tmp_path)
     assert done.stdout.startswith("0 s of processor time"), done
+
+
+@pytest.mark.parametrize(
+    ("given", "code", "told"),
+    [
+        (["--help"], 0, "usage: scripts/demo"),
+        (["nothere.ply"], 2, "nothere.ply: no such file; give a GLB, OBJ, PLY or STL mesh"),
+        (["--size", "0"], 2, "--size: '0' is no whole number from 1 on"),
+        (["--samples", "-1"], 2, "--samples: '-1' is no whole number from 1 on"),
+        (["--unit", "nan"], 2, "--unit: 'nan' is no number above 0"),
+        (["--up=Q"], 2, "--up: 'Q' is no axis"),
+        (["--ear", "1,2"], 2, "--ear: '1,2' is no point; give three numbers"),
+        (["--color-map", "skin.png"], 2, "--color-map: skin.png: no such file"),
+        (["--out", "note.txt"], 2, "--out note.txt: is a file; give a folder"),
+        (["note.txt", "--mesh", "suzanne"], 2, "two heads are given, note.txt and suzanne"),
+    ],
+)
+def test_the_demo_answers_about_its_options_before_it_sets_up(tmp_path, given, code, told):
+    """It told of a file that is not there after minutes of installing and building, and of a size of 0 never."""
+    project = tmp_path / "project"
+    shutil.copytree(ROOT / "scripts", project / "scripts")
+    (project / "studies").symlink_to(ROOT / "studies")
+    (project / "scripts" / "setup").write_text("echo sets up\nexit 7\n")
+    (tmp_path / "note.txt").write_text("")
+    done = subprocess.run(["bash", project / "scripts" / "demo", *given], capture_output=True, text=True, cwd=tmp_path)
+    assert done.returncode == code, done.stdout + done.stderr
+    assert told in " ".join((done.stdout + done.stderr).split())
+    assert "sets up" not in done.stdout
+
+
+def test_the_demo_sets_up_when_its_options_can_be(tmp_path):
+    project = tmp_path / "project"
+    shutil.copytree(ROOT / "scripts", project / "scripts")
+    (project / "studies").symlink_to(ROOT / "studies")
+    (project / "scripts" / "setup").write_text("echo sets up\nexit 7\n")
+    (tmp_path / "my head.ply").write_text("")
+    given = ["my head.ply", "--up", "z", "--facing=-Y", "--unit", "1", "--ear=-8,4.5,-1"]
+    done = subprocess.run(["bash", project / "scripts" / "demo", *given], capture_output=True, text=True, cwd=tmp_path)
+    assert done.returncode == 7 and "sets up" in done.stdout

@@ -38,9 +38,34 @@ def check_objects_that_cannot_be_skins(_work):
     refused(sb.SkinError, "is not a skin", sb.lut, flat, depsgraph())
 
 
+def check_names_in_place_of_what_they_name(_work):
+    """It was 'str' object has no attribute 'type', whatever was called."""
+    obj = patch("Face")
+    sb.make_skin(obj, thickness=THIN)
+    graph = depsgraph()
+    name = "obj is the text 'Face'; give an object: bpy.data.objects['Face']"
+    for function in (sb.make_skin, sb.health, sb.bake_thickness, sb.remove_skin, sb.set_medium):
+        refused(ValueError, f"{function.__name__}: {name}", function, "Face")
+    for function in (sb.lut, sb.light_report, sb.state_of):
+        refused(ValueError, name, function, "Face", graph)
+        refused(ValueError, "give bpy.context.evaluated_depsgraph_get()", function, obj, bpy.context)
+    refused(ValueError, "obj is [bpy.data.objects['Face']], of type list; give an object", sb.make_skin, [obj])
+    refused(ValueError, "image is the text 'x.png'; give an image: bpy.data", sb.thickness_from_image, obj, "x.png")
+    refused(ValueError, "material is the text 'Skin'; give a material", sb.show_light_by, "Skin", "skinglow")
+    for function in (sb.freeze, sb.unfreeze):
+        refused(ValueError, "objects is one Object; give a list: [bpy.data.objects['Face']]", function, obj)
+        refused(ValueError, "objects is the text 'Face'; give an object", function, ["Face"])
+        refused(ValueError, "objects is the text 'Face'; give an object", function, "Face")
+    refused(ValueError, "depsgraph is ", sb.update, bpy.context)
+    refused(ValueError, "depsgraph is ", sb.export_povray, bpy.context.scene, "x")
+    refused(ValueError, "scene is the text 'Scene'; give a scene", sb.render_batch, "x", scene="Scene")
+    assert obj.skinglow.enabled
+
+
 def check_settings(_work):
     obj = patch()
     refused(ValueError, "has no setting 'color'", sb.make_skin, obj, thickness=THIN, color=1)
+    refused(ValueError, "preset = 'lihgt' is not allowed: it has to be one of", sb.make_skin, obj, preset="lihgt")
     refused(ValueError, "mode = 'magic'", sb.make_skin, obj, thickness=THIN, mode="magic")
     refused(sb.SkinError, "4 vertices", sb.make_skin, obj, thickness=[1.0])
     refused(sb.SkinError, "negative or not finite", sb.make_skin, obj, thickness=[0, 1, 2, np.nan])
