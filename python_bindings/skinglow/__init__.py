@@ -68,6 +68,7 @@ from skinglow._core import (
 )
 from skinglow._for_hosts import (
     diffuse_radiance,
+    irradiance_difference,
     light_rotation,
     luminance,
     stratified_indices,
@@ -161,6 +162,7 @@ __all__ = [
     "TileTargets",
     # For hosts
     "diffuse_radiance",
+    "irradiance_difference",
     "light_rotation",
     "luminance",
     "stratified_indices",

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from skinglow._numbers import fixed, real_numbers
 
 if TYPE_CHECKING:
-    from skinglow._core import Light
+    from skinglow._core import Light, SurfaceLighting
 
 #: Rec.709 luminance (ITU-R BT.709-6, item 3.2 of part 1).
 LUMINANCE = fixed(np.array((0.2126, 0.7152, 0.0722)))
@@ -91,6 +91,34 @@ def light_rotation(light: "Light") -> NDArray[np.float64]:
             break
     x_axis /= np.linalg.norm(x_axis)
     return np.column_stack((x_axis, np.cross(z_axis, x_axis), z_axis))
+
+
+def irradiance_difference(
+    lighting: "SurfaceLighting", reference: "SurfaceLighting", box_min: ArrayLike, box_max: ArrayLike
+) -> float:
+    """How far one lighting of a surface is from another about a box: the largest difference of irradiance in any
+    channel, over the largest irradiance of the reference. 0 where both are dark, inf where the reference alone is.
+
+    box_min, box_max  (3,), scene unit, else ValueError
+    Looked at are the box's corners, the middles of its edges and sides and its own, each facing along all six axes.
+    """
+    ends = [_corner(name, end) for name, end in (("box_min", box_min), ("box_max", box_max))]
+    steps = np.indices((3, 3, 3)).reshape(3, -1).T / 2.0
+    points = (1.0 - steps) * ends[0] + steps * ends[1]
+    normals = np.concatenate([np.eye(3), -np.eye(3)])
+    where = np.repeat(points, len(normals), axis=0), np.tile(normals, (len(points), 1))
+    found, right = lighting.irradiance(*where), reference.irradiance(*where)
+    difference, largest = float(np.abs(found - right).max()), float(np.abs(right).max())
+    if difference == 0.0:
+        return 0.0
+    return difference / largest if largest > 0.0 else np.inf
+
+
+def _corner(name: str, given: ArrayLike) -> NDArray[np.float64]:
+    corner = real_numbers(name, given)
+    if corner.shape != (3,):
+        raise ValueError(f"{name} is of shape {corner.shape}; allowed: shape (3,)")
+    return corner
 
 
 def _of_shape(name: str, given: ArrayLike, shape: str) -> NDArray[np.float64]:

@@ -143,6 +143,8 @@ REAL: dict[str, Call] = {
     "luminance(colors)": (sg.luminance, COLOR),
     "diffuse_radiance(exitance)": (sg.diffuse_radiance, COLOR),
     "visible_entries(table)": (sg.visible_entries, TRIANGLE),
+    "irradiance_difference(box_min)": (lambda a: sg.irradiance_difference(LIGHTING, LIGHTING, a, POINT), POINT),
+    "irradiance_difference(box_max)": (lambda a: sg.irradiance_difference(LIGHTING, LIGHTING, POINT, a), POINT),
     "uniform_scale(before)": (lambda a: sg.uniform_scale(a, TRIANGLE), TRIANGLE),
     "uniform_scale(after)": (lambda a: sg.uniform_scale(TRIANGLE, a), TRIANGLE),
     "Occluders(meshes)": (lambda a: sg.Occluders([(a, CORNERS)]), TRIANGLE),

@@ -93,3 +93,17 @@ def test_light_rotation_points_the_light(kind: str, direction: tuple[float, ...]
 def test_light_rotation_of_a_point_light_is_none() -> None:
     light = sg.Light(kind="POINT", color=(1, 1, 1), position=(0, 0, 0), power=1.0)
     np.testing.assert_array_equal(sg.light_rotation(light), np.eye(3))
+
+
+def test_irradiance_difference_of_an_area_light_in_one_term_and_in_many() -> None:
+    box = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+    light = sg.Light("AREA", position=(0.5, 0.5, 1.5), power=1.0, size_x=4.0, size_y=4.0)
+    coarse, fine, dark = (
+        sg.SurfaceLighting(lights, *box, max_terms=terms) for lights, terms in (([light], 1), ([light], 8), ([], 8))
+    )
+    assert sg.irradiance_difference(fine, fine, *box) == sg.irradiance_difference(dark, dark, *box) == 0.0
+    assert sg.irradiance_difference(coarse, fine, *box) > 0.05
+    assert sg.irradiance_difference(dark, fine, *box) == 1.0
+    assert sg.irradiance_difference(fine, dark, *box) == np.inf
+    with pytest.raises(ValueError, match="box_max is of shape"):
+        sg.irradiance_difference(fine, fine, box[0], (1.0, 1.0))

@@ -105,6 +105,7 @@ def test_package_exports_every_name_once() -> None:
         "bake_thickness",
         "diffuse_radiance",
         "gray_png",
+        "irradiance_difference",
         "light_rotation",
         "luminance",
         "stratified_indices",

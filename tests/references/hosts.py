@@ -61,6 +61,16 @@ def scales() -> float:
     return worst
 
 
+@held_against("two powers of one light", "irradiance_difference", domain="20 lights about a box", limit=1e-12)
+def differences() -> float:
+    rng, worst, box = generator(54), 0.0, ((-1, -1, -1), (1, 1, 1))
+    for factor in rng.uniform(0.2, 3.0, 20):
+        bright, dim = (sg.Light(position=(0, 5, 1), power=power) for power in (1.0, factor))
+        apart = sg.irradiance_difference(*(sg.SurfaceLighting([light], *box) for light in (dim, bright)), *box)
+        worst = max(worst, abs(apart - abs(factor - 1.0)))
+    return worst
+
+
 @held_against("matrix products, in numpy", "Light.moved", domain="100 rotations and translations", limit=1e-13)
 def motions() -> float:
     rng, worst = generator(53), 0.0

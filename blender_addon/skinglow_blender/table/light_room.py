@@ -60,12 +60,7 @@ def coarse_lights(lighting: Any, wanted: Any, box: tuple[tuple, tuple]) -> list[
 
     lighting, wanted  skinglow.SurfaceLighting as it fits the nodes, and as it should be
     """
-    low, high = np.array(box)
-    corners = low + (high - low) * (np.indices((3, 3, 3)).reshape(3, -1).T / 2.0)
-    normals = np.concatenate([np.eye(3), -np.eye(3)])
-    at = np.repeat(corners, len(normals), axis=0), np.tile(normals, (len(corners), 1))
-    shown, right = lighting.irradiance(*at), wanted.irradiance(*at)
-    if np.abs(shown - right).max() <= COARSE * np.abs(right).max():
+    if core().irradiance_difference(lighting, wanted, *box) <= COARSE:
         return []
     terms, wanted_terms = Counter(lighting.lights_of_terms), Counter(wanted.lights_of_terms)
     return sorted(i for i in wanted_terms if terms[i] < wanted_terms[i])
