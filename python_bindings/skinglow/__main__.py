@@ -171,7 +171,8 @@ def shape(options: argparse.Namespace) -> None:
     print(f"{options.output}: {len(vertices)} vertices, {told}")
 
 
-def add_rig_options(command: argparse.ArgumentParser, required: bool) -> None:
+def add_rig_options(command: argparse.ArgumentParser, required: bool, *, at_a_point: bool = True) -> None:
+    """at_a_point: whether lights are asked for at one point, by Eq. 2 and 3; a shape has points of its own."""
     command.add_argument(
         "rig", metavar="RIG", nargs=None if required else "?", help="rig file (JSON) or *.sl of Blender"
     )
@@ -180,7 +181,7 @@ def add_rig_options(command: argparse.ArgumentParser, required: bool) -> None:
         ("--coefficients", "KC KL KQ", "of the attenuation; else the rig's"),
         ("--blood", "R G B", "blood weight B; else the rig's"),
         ("--camera-rotation", "X Y Z", "of the camera that the lights of *.sl hang on, degrees"),
-    ):
+    )[0 if at_a_point else -1 :]:
         command.add_argument(name, metavar=tuple(metavar.split()), nargs=3, type=float, help=told)
 
 
@@ -239,7 +240,8 @@ def parser() -> Parser:
 
     command = add(shape, "Light through the body itself: what leaves each vertex, W/m^2")
     add_mesh(command, 1000.0)
-    add_rig_options(command, required=True)
+    command.set_defaults(point=None, coefficients=None, blood=None)
+    add_rig_options(command, required=True, at_a_point=False)
     command.add_argument("--skin", default="light", **skins)
     command.add_argument("--cell", metavar="MM", type=float, help="edge of the cells")
     command.add_argument("--tolerance", metavar="X", type=float, help="instead of --cell: the error that is allowed")

@@ -128,6 +128,9 @@ def test_refusals_are_one_line_that_names_the_thing(tmp_path: Path, capsys: pyte
         (("thickness", tmp_path / "none.npz", "-o", out), "none.npz: No such file or directory: check the name"),
         (("lut", RIG, "-o", tmp_path / "missing" / "a.csv"), "there is no folder"),
         (("melt",), "melt"),
+        # What would change nothing is no option.
+        (("shape", tmp_path / "empty.npz", RIG, "--point", 0, 0, 1, "-o", out), "--point"),
+        (("shape", tmp_path / "empty.npz", RIG, "--blood", 1, 1, 1, "-o", out), "--blood"),
     ):
         assert word in refused(capsys, *arguments), arguments
     assert not out.exists()
