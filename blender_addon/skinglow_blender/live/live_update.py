@@ -77,8 +77,8 @@ def _update_scene(
     if made is not None:
         SESSION.scene_skins = None
     hidden = [made] if made is not None and key_of(made) not in seen else []
-    if left_out is None:
-        hidden += to_make_ready(depsgraph, reading, seen.union(map(key_of, hidden)))
+    others = to_make_ready(depsgraph, reading, seen.union(map(key_of, hidden))) if left_out is None else []
+    hidden += others
     if hidden:
         reading = reading._replace(skins=[*reading.skins, *((obj, _as_in_file(obj)) for obj in hidden)])
     SESSION.reference_objects = frozenset(skin.reference for _obj, skin in reading.skins if skin.reference)
@@ -110,6 +110,9 @@ def _update_scene(
         except SkinError as error:
             for _obj, skin in members:
                 faults[skin.key] = f"{skin.name}: {error}"
+    for obj in others:
+        # What is wrong with a hidden skin is told when it is shown, and by the render that shows it.
+        faults.pop(key_of(obj), None)
     SESSION.faults = faults
     if depsgraph.mode == "RENDER":
         for key, fault in faults.items():
