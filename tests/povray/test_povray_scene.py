@@ -217,7 +217,7 @@ def test_povrays_own_message_reaches_the_user_when_the_lookup_is_missing(tmp_pat
         picture(tmp_path, square(image="not_there.exr"))
 
 
-def test_example_the_right_ear_follows_the_lamp_and_the_left_does_not(tmp_path):
+def test_example_the_right_ear_follows_the_light_and_the_left_does_not(tmp_path):
     files = {name: (MACROS / name).read_text() for name in ("example.pov",)}
     files["skinglow.inc"] = sg.povray_macros()
     ini = "Input_File_Name=example.pov\nWidth=80\nHeight=60\n"
