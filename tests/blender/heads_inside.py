@@ -4,11 +4,14 @@ Usage: heads_inside.py RESULTS.json FOLDER FILE...; with "-" for a FOLDER it onl
 """
 
 import json
+import os
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(Path(__file__).parent), str(ROOT), str(ROOT / "blender_addon")]
+if os.environ.get("SKINGLOW_SITE"):
+    sys.path.append(os.environ["SKINGLOW_SITE"])
 
 import bpy  # noqa: E402  isort: skip
 import numpy as np  # noqa: E402
