@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What scripts give to the public functions: a name in place of what it names is told at the door, with the remedy."""
+"""Checks what scripts give to the public functions: a name instead of the object is refused, with the remedy."""
 
 import inspect
 import typing

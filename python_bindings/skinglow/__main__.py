@@ -176,12 +176,14 @@ def add_rig_options(command: argparse.ArgumentParser, required: bool, *, at_a_po
     command.add_argument(
         "rig", metavar="RIG", nargs=None if required else "?", help="rig file (JSON) or *.sl of Blender"
     )
-    for name, metavar, told in (
-        ("--point", "X Y Z", "where on the skin, in units of the rig; else the rig's"),
-        ("--coefficients", "KC KL KQ", "of the attenuation; else the rig's"),
-        ("--blood", "R G B", "blood weight B; else the rig's"),
-        ("--camera-rotation", "X Y Z", "of the camera that the lights of *.sl hang on, degrees"),
-    )[0 if at_a_point else -1 :]:
+    options = [("--camera-rotation", "X Y Z", "of the camera that the lights of *.sl hang on, degrees")]
+    if at_a_point:
+        options += [
+            ("--point", "X Y Z", "where on the skin, in units of the rig; else the rig's"),
+            ("--coefficients", "KC KL KQ", "of the attenuation; else the rig's"),
+            ("--blood", "R G B", "blood weight B; else the rig's"),
+        ]
+    for name, metavar, told in options:
         command.add_argument(name, metavar=tuple(metavar.split()), nargs=3, type=float, help=told)
 
 
@@ -257,8 +259,10 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         options.run(options)
     except OSError as error:
-        reason = error.strerror or str(error)
-        print(f"skinglow: file {error.filename}: {reason}: check the name and the permissions", file=sys.stderr)
+        told = error.strerror or str(error)
+        if error.filename is not None:  # none of a full disk
+            told = f"file {error.filename}: {told}: check the name and the permissions"
+        print(f"skinglow: {told}", file=sys.stderr)
         return 2
     except (ValueError, TypeError, MemoryError) as error:
         print(f"skinglow: {error or 'not enough memory'}", file=sys.stderr)

@@ -186,3 +186,14 @@ def test_special_files_are_refused_at_once(tmp_path: Path, capsys: pytest.Captur
         assert name in refused(capsys, "weights", tmp_path / name)
     (tmp_path / "endless.npz").symlink_to("/dev/zero")
     assert "is not a file" in refused(capsys, "thickness", tmp_path / "endless.npz", "-o", out)
+
+
+def test_a_full_disk_is_told_without_a_file_that_nobody_named(
+    capsys: pytest.CaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    full.__name__ = "weights"  # the command's
+    monkeypatch.setattr("skinglow.__main__.weights", full)
+    assert refused(capsys, "weights", RIG) == "skinglow: No space left on device\n"
