@@ -30,6 +30,8 @@ class Ear:
     center: Array  # (3,) of what stands out
     size: float  # its height
     side: float  # 1: at +X, the left ear; -1
+    stands_out: float = 0.0  # from the skull, at most
+    backward: float = 0.0  # correlation of that with +Y: an ear's free edge is behind, its attached one in front
 
 
 @dataclass
@@ -94,8 +96,15 @@ def _ear(points: Array, head: HeadSize, side: float) -> Ear | None:
         size = float((high - low)[1] * cell)
         if EAR_AREA[0] < area < EAR_AREA[1] and size < EAR_HEIGHT * head.width:
             y, z = 0.5 * (low + high) * cell + (y0, head.bottom)
-            return Ear(np.array([head.middle_x + side * float(side_view[part].mean()), y, z]), size, side)
+            center = np.array([head.middle_x + side * float(side_view[part].mean()), y, z])
+            stands_out = (side_view - skull)[part]
+            return Ear(center, size, side, float(stands_out.max()), _correlation(stands_out, index[:, 0]))
     return None
+
+
+def _correlation(a: Array, b: NDArray[np.integer]) -> float:
+    a, b = a - a.mean(), b - b.mean()
+    return float(a @ b / np.sqrt(max(a @ a * (b @ b), 1e-300)))
 
 
 def _filled(image: Array) -> Array:

@@ -33,8 +33,14 @@ def head(ears=("left", "right"), detail=48):
         ball((0.0, -0.092, -0.010), (0.024, 0.010, 0.008), detail // 2),
         tube(-0.13, 0.02, 0.055, detail),
     ]
-    parts += [ball((side, 0.01, 0.045), (0.016, 0.014, 0.031), detail // 2) for side in _sides(ears)]
-    return joined(parts)
+    return joined(parts + [ear(side, detail // 2) for side in _sides(ears)])
+
+
+def ear(side, detail):
+    """It stands out behind."""
+    points, corners = ball((side, 0.01, 0.045), (0.014, 0.016, 0.031), detail)
+    points[:, 0] += np.sign(side) * 0.6 * (points[:, 1] - 0.01)
+    return points, corners
 
 
 def body():

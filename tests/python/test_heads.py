@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import trimesh
-from made_head import ball, body, head
+from made_head import ball, body, head, joined
 
 from studies.heads import preview
 from studies.heads.any_head import place_head
@@ -30,6 +30,24 @@ def test_a_head_is_seen_for_what_it_is_any_way_it_lies():
         found = guess(samples.turned(way.rotation().T))
         assert found.orientation == way
         assert found.is_sure
+
+
+@pytest.mark.parametrize("degrees", [-20.0, 20.0])
+def test_a_head_that_nods_is_no_head_that_looks_back(degrees):
+    """Two heads were turned round or over, for sure: the ears tell front from back."""
+    vertices, triangles = head()
+    nod = trimesh.transformations.rotation_matrix(np.radians(degrees), (1, 0, 0))[:3, :3]
+    found = guess(sample(vertices @ nod.T, triangles))
+    assert found.orientation == Orientation("+Z", "-Y")
+    assert found.is_sure
+
+
+def test_what_has_no_ears_where_a_head_has_them_is_never_sure():
+    """Suzanne, whose ears stand out by half of her head, was turned over for sure."""
+    vertices, triangles = head(ears=[])
+    parts = [(vertices, triangles)] + [ball((0.12 * side, 0.01, 0.045), (0.06, 0.01, 0.03)) for side in (1.0, -1.0)]
+    for shape in ((vertices, triangles), joined(parts)):
+        assert not guess(sample(*shape)).is_sure
 
 
 @pytest.mark.parametrize("axis", [0, 1])
@@ -124,7 +142,13 @@ def test_a_soup_of_triangles_is_a_head():
 
 
 @pytest.mark.parametrize(
-    ("name", "way", "up"), [("person.obj", Orientation("+Y", "+Z"), None), ("person.ply", Orientation("+Z", "-Y"), "z")]
+    ("name", "way", "up"),
+    [
+        ("person.obj", Orientation("+Y", "+Z"), None),
+        ("person.ply", Orientation("+Z", "-Y"), "z"),
+        ("person.ply", Orientation("+Z", "-Y"), None),
+        ("person.ply", Orientation("-X", "+Y"), None),
+    ],
 )
 def test_of_a_whole_body_the_head_is_looked_at(name, way, up):
     """No ear was found, or it was turned over for sure."""
