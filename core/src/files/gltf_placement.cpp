@@ -100,7 +100,7 @@ std::vector<std::uint8_t> apply_gltf_skin(GltfDocument& document, const GltfNode
     std::vector<JointSet> sets;
     for (std::string set = "0"; attributes.contains("JOINTS_" + set); set = std::to_string(sets.size())) {
         const auto find = [&](const std::string& key) {
-            const GltfAccessor found =
+            GltfAccessor found =
                 document.accessor(document.number(attributes, (key + set).c_str(), where), "VEC4");
             if (found.count != vertices.size())
                 document.refuse("has joints or weights for another number of vertices", where);

@@ -184,9 +184,10 @@ WhiteIrradiance VertexLight::of_light(const PreparedLight& light, bool has_shado
             const double distance = light.distance(points_[i]);
             if (!(LightSampler::sine_at(light, distance) < narrow)) continue;
             is_narrow[i] = 1;
-            const double to_surface = light.soft_falloff() ? distance : distance - light.radius();
-            const bool is_sun = light.kind() == LightKind::sun;
-            to_center.push_back({i, 1.0, {light.to_light(points_[i]), is_sun ? unlimited : to_surface, 1.0}});
+            double length = unlimited;
+            if (light.kind() != LightKind::sun)
+                length = light.soft_falloff() ? distance : distance - light.radius();
+            to_center.push_back({i, 1.0, {light.to_light(points_[i]), length, 1.0}});
         }
         trace(to_center, seen);
         const auto is_wide = [&](std::size_t i) { return has_shadows && open[i] > 0 && is_narrow[i] == 0; };
