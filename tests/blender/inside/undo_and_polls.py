@@ -213,7 +213,7 @@ def check_all_selected_or_none(_work):
 
 def fine_ball():
     """Takes seconds to measure."""
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=256, ring_count=256)
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=8)
     obj = bpy.context.object
     obj.skinglow.rays = 4096
     return obj
