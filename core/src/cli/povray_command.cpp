@@ -70,6 +70,7 @@ PovrayLut use_table(const PovrayArguments& options, std::map<std::string, std::s
         throw std::invalid_argument(
             "--lut brings its own table: leave out --mode, --base, --size, --max-thickness and the skin's");
     }
+    options.rig.require_used(RigNumbers::none, "--lut brings its own table");
     const LutFile file = read_lut(options.lut);
     for (const std::string& note : file.notes) tell(options.lut, note);
     PovrayLut lut;
@@ -87,6 +88,7 @@ PovrayLut compute_table(const PovrayArguments& options) {
     PovrayLut lut;
     lut.strength = options.strength;
     lut.mode = options.table.mode(options.skin);
+    options.rig.require_used(lut.mode);
     if (lut.mode == LutMode::physical) {
         const BaseLut skin = options.table.solve_skin(options.skin).lut;
         lut.axis = skin.axis();
