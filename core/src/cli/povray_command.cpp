@@ -16,6 +16,7 @@
 #include "cli/rig_options.h"
 #include "cli/table_options.h"
 #include "files/atomic_file.h"
+#include "geometry/smooth_normals.h"
 #include "numerics/argument_check.h"
 
 namespace skinglow::cli {
@@ -35,6 +36,9 @@ struct PovrayArguments {
     double strength = 1.0;
     std::optional<std::array<double, 3>> surface;
 };
+
+/// Files of meshes are read without their normals; folds of skin are rounder than this, edges of boxes are not.
+constexpr double sharp_edge = std::numbers::pi / 3.0;
 
 /// The mesh in the scene's axes: one with y up is turned as Blender's importers do.
 TriangleMesh turn_upright(const TriangleMesh& mesh, bool y_up) {
@@ -136,9 +140,11 @@ void run_povray(PovrayArguments& options) {
     scene.lut.point = rig.point;
     scene.lut.coefficients = rig.coefficients;
     scene.lut.blood_weight = rig.blood_weight;
-    if (const auto& rgb = options.surface)
-        scene.surface = PovraySurface{{(*rgb)[0], (*rgb)[1], (*rgb)[2]}, ""};
     scene.mesh.geometry = mesh;
+    if (const auto& rgb = options.surface) {
+        scene.surface = PovraySurface{{(*rgb)[0], (*rgb)[1], (*rgb)[2]}, ""};
+        scene.mesh.corner_normals = smooth_normals(mesh, sharp_edge);
+    }
     const double thickest = scene.lut.axis.max_thickness_mm();
     std::size_t thin = 0;
     for (const double thickness : options.mesh.measure(mesh)) {
@@ -181,7 +187,8 @@ void add_povray_command(CLI::App& program) {
     add_option(*command, "--field-of-view", options->field_of_view, "DEGREES", "Angle that the width covers");
     add_option(*command, "--strength", options->strength, "X", "Of the glow");
     add_option(*command, "--surface", options->surface, "R G B",
-               "Also a matt surface of this color, lit by the lights");
+               "Also a matt surface of this color, lit by the lights; smooth where faces meet at less than "
+               "60 degrees");
     command->footer(
         "Example: skinglow povray table1.json --mesh head.obj --unit 100 --group body --up y -o scene\n"
         "Example: skinglow povray table1.json --mesh head.obj --mode physical --skin ear -o scene");
