@@ -1,5 +1,6 @@
 """`skinglow povray`: the scene means what the mesh's format and the table say."""
 
+import json
 import os
 import re
 import subprocess
@@ -80,3 +81,21 @@ def test_a_surface_is_smooth_but_for_sharp_edges(tmp_path, ending):
         np.testing.assert_allclose(normals, want, atol=0.02 if name == "ball" else 1e-6)
     skinglow("povray", RIG, "--mesh", tmp_path / f"ball{ending}", "-o", tmp_path / "glow")
     assert "normal" not in (tmp_path / "glow" / "mesh.inc").read_text()
+
+
+def test_what_pov_ray_has_not_is_told(tmp_path):
+    light = {"kind": "AREA", "position": [0, 0, 90], "size_x": 10, "size_y": 10, "spread": 1.0}
+    (tmp_path / "rig.json").write_text(json.dumps({"skinglow_rig": 1, "lights": [light]}))
+    scene = ("povray", tmp_path / "rig.json", "--mesh", plate(tmp_path / "plate.ply", (40.0, 30.0, 2.0)))
+    for options, told in ((["--surface", 1, 1, 1], "spread of an area light is a cone"), ([], "")):
+        command = [PROGRAM, *map(str, (*scene, *options, "-o", tmp_path / "scene"))]
+        done = subprocess.run(command, capture_output=True, text=True, check=True)
+        assert told in done.stderr and bool(told) == bool(done.stderr)
+
+
+@pytest.mark.parametrize(("option", "value"), [("--field-of-view", 180), ("--width", 0), ("--height", 0)])
+def test_a_camera_is_refused_by_its_option(tmp_path, option, value):
+    mesh = plate(tmp_path / "plate.ply", (40.0, 30.0, 2.0))
+    command = [PROGRAM, "povray", RIG, "--mesh", mesh, option, str(value), "-o", tmp_path / "scene"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 2 and done.stderr.startswith(f"skinglow: {option} is {value}; allowed: "), done.stderr

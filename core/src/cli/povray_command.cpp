@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 #include <stdexcept>
+#include <variant>
 
 #include "cli/commands.h"
 #include "cli/mesh_options.h"
@@ -40,6 +41,11 @@ struct PovrayArguments {
 /// Files of meshes are read without their normals; folds of skin are rounder than this, edges of boxes are not.
 constexpr double sharp_edge = std::numbers::pi / 3.0;
 
+bool is_spread(const Light& light) {
+    const auto* area = std::get_if<AreaLight>(&light.shape());
+    return area != nullptr && is_on(light) && area->spread < std::numbers::pi;
+}
+
 /// The mesh in the scene's axes: one with y up is turned as Blender's importers do.
 TriangleMesh turn_upright(const TriangleMesh& mesh, bool y_up) {
     if (!y_up) return mesh;
@@ -53,9 +59,11 @@ PovrayCamera frame(const TriangleMesh& mesh, const PovrayArguments& options) {
     PovrayCamera camera;
     camera.width = options.width;
     camera.height = options.height;
-    const double angle =
-        require_positive("--field-of-view", options.field_of_view) * std::numbers::pi / 180.0;
-    if (options.width == 0 || options.height == 0) refuse_argument("picture size", "0", "1 to 65535 pixels");
+    if (!(options.field_of_view > 0.0 && options.field_of_view < 180.0))
+        refuse_argument("--field-of-view", to_text(options.field_of_view), "degrees above 0 and below 180");
+    const double angle = options.field_of_view * std::numbers::pi / 180.0;
+    if (options.width == 0 || options.height == 0)
+        refuse_argument(options.width == 0 ? "--width" : "--height", "0", "1 to 65535 pixels");
     set_field_of_view(camera, angle);
     const Box box = box_of(mesh.vertices());
     const double narrow =
@@ -144,6 +152,12 @@ void run_povray(PovrayArguments& options) {
     if (const auto& rgb = options.surface) {
         scene.surface = PovraySurface{{(*rgb)[0], (*rgb)[1], (*rgb)[2]}, ""};
         scene.mesh.corner_normals = smooth_normals(mesh, sharp_edge);
+        if (std::any_of(rig.lights.begin(), rig.lights.end(), is_spread)) {
+            tell(
+                options.rig.path(),
+                "the spread of an area light is a cone in POV-Ray: light on the surface is up to 15 % of the "
+                "brightest off");
+        }
     }
     const double thickest = scene.lut.axis.max_thickness_mm();
     std::size_t thin = 0;
