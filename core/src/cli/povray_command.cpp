@@ -127,6 +127,7 @@ const std::set<std::string> scene_files = {"camera.inc", "columns.inc", "lights.
 /// Nothing that is read may stand where a file of the scene will.
 void check_folder(const PovrayArguments& options) {
     std::vector<std::filesystem::path> outputs;
+    outputs.reserve(scene_files.size());
     for (const std::string& name : scene_files)
         outputs.push_back(std::filesystem::path(options.folder) / name);
     std::vector<std::filesystem::path> inputs = options.mesh.sources();
