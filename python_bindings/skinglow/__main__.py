@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import io
 import json
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import NoReturn
 
@@ -108,12 +109,24 @@ def weights(options: argparse.Namespace) -> None:
         print(f"{name:{width}}" + "".join(f"{number:13.6g}" for number in value) + f"  {share}".rstrip())
 
 
+def refuse_options(options: argparse.Namespace, names: Sequence[str], why: str) -> None:
+    """Raises ValueError where one of the options was given: it would change nothing."""
+    for name in names:
+        if getattr(options, name) is not None:
+            raise ValueError(f"{why}, which --{name.replace('_', '-')} would not change: leave it out")
+
+
 def lut(options: argparse.Namespace) -> None:
     size, depth = options.size, options.max_thickness
     chosen = {name: value for name in sg.TISSUE_PARAMETERS if (value := getattr(options, name)) is not None}
-    mode = options.mode or ("physical" if options.skin or chosen else "paper")
-    if mode != "physical" and (options.skin or chosen):
+    of_skin = options.skin or chosen or options.tolerance is not None
+    mode = options.mode or ("physical" if of_skin else "paper")
+    if mode != "physical" and of_skin:
         raise ValueError("--skin and its options belong to --mode physical")
+    if mode == "physical":
+        refuse_options(options, ("coefficients", "blood"), "--mode physical is light in W/m^2")
+    if not options.rig:
+        refuse_options(options, ("point", "coefficients", "blood", "camera_rotation"), "there is no RIG")
     if mode == "existing":
         if options.rig:
             raise ValueError("--mode existing knows no lights: leave out RIG")
@@ -126,7 +139,7 @@ def lut(options: argparse.Namespace) -> None:
         colors = sg.recolor(base, blood + sg.light_weight(rig.lights, point, coefficients))
     else:
         skin = sg.TISSUE_PRESETS[options.skin or "light"].replace(**chosen)
-        base = sg.base_lut(skin, size, depth, options.tolerance)
+        base = sg.base_lut(skin, size, depth, 1e-3 if options.tolerance is None else options.tolerance)
         irradiance: Array = np.ones(3)
         if options.rig:
             rig, point, *_ = read_rig(options)
@@ -213,7 +226,7 @@ def parser() -> Parser:
     def add_output(command: argparse.ArgumentParser) -> None:
         command.add_argument("-o", "--output", metavar="FILE", type=table_file, required=True, help=".csv or .npy")
 
-    skins = {"choices": tuple(sg.TISSUE_PRESETS), "help": "tissue"}
+    skins = tuple(sg.TISSUE_PRESETS)
     command = add(weights, "How much each light counts at a point (Eq. 2 and 3 of the paper)")
     add_rig_options(command, required=True)
     command.add_argument("--json", action="store_true", help="print JSON with every digit")
@@ -225,10 +238,8 @@ def parser() -> Parser:
     command.add_argument(
         "--max-thickness", metavar="MM", type=float, default=12.0, help="of the last texel (%(default)s)"
     )
-    command.add_argument(
-        "--tolerance", metavar="X", type=float, default=1e-3, help="largest relative error of physical"
-    )
-    command.add_argument("--skin", **skins)
+    command.add_argument("--tolerance", metavar="X", type=float, help="largest relative error of physical (0.001)")
+    command.add_argument("--skin", choices=skins, help="tissue of physical")
     for name, (_, least, most, _, told) in sg.TISSUE_PARAMETERS.items():
         text = f"{told}; {least:g} to {most:g}; else the preset's"
         command.add_argument(f"--{name.replace('_', '-')}", metavar="X", type=float, help=text)
@@ -244,7 +255,7 @@ def parser() -> Parser:
     add_mesh(command, 1000.0)
     command.set_defaults(point=None, coefficients=None, blood=None)
     add_rig_options(command, required=True, at_a_point=False)
-    command.add_argument("--skin", default="light", **skins)
+    command.add_argument("--skin", choices=skins, default="light", help="tissue (%(default)s)")
     command.add_argument("--cell", metavar="MM", type=float, help="edge of the cells")
     command.add_argument("--tolerance", metavar="X", type=float, help="instead of --cell: the error that is allowed")
     command.add_argument(
@@ -255,6 +266,9 @@ def parser() -> Parser:
 
 
 def main(arguments: list[str] | None = None) -> int:
+    # A file's name may be any bytes, a light's any characters: to print one must not fail when the work is done.
+    if isinstance(sys.stdout, io.TextIOWrapper) and sys.stdout.errors == "strict":
+        sys.stdout.reconfigure(errors="backslashreplace")
     options = parser().parse_args(arguments)
     try:
         options.run(options)

@@ -384,7 +384,9 @@ class LightRig:
     @property
     def notes(self) -> list[str]: ...
 
-def read_light_rig(path: str | PathLike[str], camera_rotation: ArrayLike | None = None) -> LightRig: ...
+def read_light_rig(
+    path: str | bytes | PathLike[str] | PathLike[bytes], camera_rotation: ArrayLike | None = None
+) -> LightRig: ...
 
 # POV-Ray (bind_povray.cpp)
 

@@ -20,7 +20,8 @@ SAME_FACTOR = 1e-4
 
 def luminance(colors: ArrayLike) -> NDArray[np.float64]:
     """Luminance of linear Rec.709 colors (..., 3), (...), at least 0 (ITU-R BT.709-6); else ValueError."""
-    return np.maximum(_of_shape("colors", colors, "(..., 3)") @ LUMINANCE, 0.0)
+    found: NDArray[np.float64] = np.maximum(_of_shape("colors", colors, "(..., 3)") @ LUMINANCE, 0.0)
+    return found
 
 
 def diffuse_radiance(exitance: ArrayLike) -> NDArray[np.float64]:
@@ -135,5 +136,5 @@ def _unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:
     largest = np.abs(vector).max()
     if largest == 0.0:
         return vector
-    scaled = vector / largest
-    return scaled / np.linalg.norm(scaled)
+    scaled: NDArray[np.float64] = vector / largest
+    return scaled / float(np.linalg.norm(scaled))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,13 +12,16 @@ from numpy.typing import ArrayLike, NDArray
 from skinglow._core import Tissue
 from skinglow._numbers import fixed
 
+if TYPE_CHECKING:
+    from skinglow import _rays
+
 __all__ = ["LitShape"]
 
 
 class LitShape:
     """A body under lights; made by Shape.light. Its arrays are kept, and read-only: copy what is to be changed."""
 
-    def __init__(self, lit: Any) -> None:  # of the compiled module
+    def __init__(self, lit: _rays.LitShape) -> None:
         self._lit = lit
 
     @cached_property

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import importlib
 import io
 from pathlib import Path
 
@@ -20,7 +21,8 @@ def read_mesh(path: Path) -> tuple[Array, NDArray[np.integer]]:
     if path.suffix == ".npz":
         return read_npz(path)
     try:
-        import meshio
+        # By name: type checkers look into what is imported otherwise, which nobody needs for .npz.
+        meshio = importlib.import_module("meshio")
     except ImportError:
         raise ValueError(
             f"file {path}: only .npz is read without meshio: pip install 'skinglow[meshes]', or "

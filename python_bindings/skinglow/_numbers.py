@@ -1,9 +1,12 @@
 """What counts as numbers in Python's own functions: the same as in the compiled modules (numpy_conversion.cpp)."""
 
 import reprlib
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+Array = TypeVar("Array", bound=NDArray[Any])
 
 
 def real_numbers(name: str, given: ArrayLike) -> NDArray[np.float64]:
@@ -21,7 +24,7 @@ def real_numbers(name: str, given: ArrayLike) -> NDArray[np.float64]:
     return numbers.astype(np.float64, copy=False)
 
 
-def fixed(array: NDArray) -> NDArray:
+def fixed(array: Array) -> Array:
     """The array, made read-only: what is kept and given out must not be changed by who gets it."""
     array.setflags(write=False)
     return array

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterable, Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from skinglow._core import Light
 from skinglow._rays_loader import load_rays
 from skinglow._renamed import renamed_keywords
+
+if TYPE_CHECKING:
+    from skinglow import _rays
 
 __all__ = ["Occluders", "VisibleFraction"]
 
@@ -39,7 +42,7 @@ class Occluders:
 
     def __init__(self, meshes: Iterable[tuple[ArrayLike, ArrayLike]], origin: ArrayLike | None = None) -> None:
         self._rays = load_rays()
-        self._scene = self._rays.Occluders(meshes, origin)
+        self._scene: _rays.Occluders = self._rays.Occluders(meshes, origin)
 
     def __len__(self) -> int:
         return len(self._scene)

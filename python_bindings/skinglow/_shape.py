@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +12,9 @@ from skinglow._core import Environment, Light, PreparedRig, Tissue
 from skinglow._lit_shape import LitShape
 from skinglow._occlusion import Occluders
 from skinglow._rays_loader import load_rays
+
+if TYPE_CHECKING:
+    from skinglow import _rays
 
 __all__ = ["Shape", "ShapePart"]
 
@@ -83,7 +86,7 @@ class Shape:
             raise ValueError(f"tolerance is {tolerance}; allowed: None, as cell_mm is given")
         if tolerance is not None and not tolerance > 0.0:
             raise ValueError(f"tolerance is {tolerance}; allowed: a number above 0")
-        self._shape = load_rays().Shape(
+        self._shape: _rays.Shape = load_rays().Shape(
             vertices,
             triangles,
             tissue,
@@ -222,7 +225,7 @@ class Shape:
         return self._like(self._shape.with_tissue(tissue))
 
     @classmethod
-    def _like(cls, shape: Any) -> Shape:  # of the compiled module
+    def _like(cls, shape: _rays.Shape) -> Shape:
         result = cls.__new__(cls)
         result._shape = shape
         return result

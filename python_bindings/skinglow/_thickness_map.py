@@ -2,6 +2,7 @@
 
 import struct
 import zlib
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -127,7 +128,9 @@ def _edge_functions(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], N
     return np.stack([a, b, c], axis=-1) * sign[:, None, None], np.abs(areas)
 
 
-def _spans(points, edges, areas, width: int, height: int):  # noqa: ANN001, ANN202  arrays as above
+def _spans(
+    points: NDArray[np.float64], edges: NDArray[np.float64], areas: NDArray[np.float64], width: int, height: int
+) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]]:
     """Blocks of (triangle, row, first texel, number of texels), each (n,), of the rows that triangles cross."""
     low = np.clip(np.ceil(points[..., 1].min(axis=1) - 1e-6), 0, height).astype(np.int64)
     high = np.clip(np.floor(points[..., 1].max(axis=1) + 1e-6), -1, height - 1).astype(np.int64)
@@ -176,7 +179,8 @@ def sample_image(image: ArrayLike, uv: ArrayLike) -> NDArray[np.float64]:
     across, up = x - left, y - low
     below = values[low, left] * (1.0 - across) + values[low, right] * across
     above = values[high, left] * (1.0 - across) + values[high, right] * across
-    return below * (1.0 - up) + above * up
+    mixed: NDArray[np.float64] = below * (1.0 - up) + above * up
+    return mixed
 
 
 def gray_png(values: ArrayLike, bits: int = 16) -> bytes:

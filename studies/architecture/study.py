@@ -1,13 +1,12 @@
-"""Draws which floor of the C++ core builds on which, as the includes have it.
-
-Usage: python -m studies architecture [ALSO.png]     (writes docs/images/architecture.svg)
-"""
+"""Draws which floor of the C++ core builds on which, as the includes have it: docs/images/architecture.svg."""
 
 from __future__ import annotations
 
+import argparse
 import itertools
 import math
 import random
+from pathlib import Path
 
 import matplotlib
 from matplotlib.patches import FancyArrowPatch, FancyBboxPatch
@@ -95,7 +94,10 @@ def columns(stacked: list[list[str]], drawn: set[tuple[str, str]]) -> dict[str, 
     return best[1]
 
 
-def main(also: list[str]) -> None:
+def main(arguments: list[str]) -> None:
+    parser = argparse.ArgumentParser(prog="python -m studies architecture", description=__doc__)
+    parser.add_argument("also", nargs="*", type=Path, metavar="ALSO.png", help="other files to write it to")
+    also: list[Path] = parser.parse_args(arguments).also
     drawn = direct_arrows()
     stacked = rows(drawn)
     x = columns(stacked, drawn)

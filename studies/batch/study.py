@@ -23,6 +23,8 @@ def main(arguments: list[str]) -> None:
     parser.add_argument("--blender", metavar="PROGRAM", help="that writes the scene (default: the bpy wheel)")
     parser.add_argument("--docs", action="store_true", help="the picture of docs/batch.md is then that of this run")
     options = parser.parse_args(arguments)
+    if options.scene and options.docs:
+        parser.error("--scene makes no picture, which --docs is about: leave one of them out")
     out: Path = options.out.resolve()
     out.mkdir(parents=True, exist_ok=True)
     progress = Progress(out / "batch.log")

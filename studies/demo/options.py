@@ -66,6 +66,8 @@ def parsed(arguments: list[str]) -> argparse.Namespace:
     options = parser.parse_args(arguments)
     if options.mesh and options.named_mesh:
         parser.error(f"two heads are given, {options.mesh} and {options.named_mesh}; give one")
+    if options.quick and (options.rig or options.docs):
+        parser.error("--quick makes the first picture alone, which --rig and --docs would not change: leave them out")
     mesh = options.mesh or options.named_mesh
     if mesh and mesh not in NAMED and not Path(mesh).is_file():
         parser.error(f"{mesh}: no such file; give a GLB, OBJ, PLY or STL mesh, or `--mesh suzanne`")

@@ -31,6 +31,10 @@ def parsed(arguments: list[str]) -> argparse.Namespace:
     options = parser.parse_args(arguments)
     if options.size < 32 or options.samples < 64:
         parser.error("--size must be at least 32 and --samples at least 64")
+    made_by = ("head", "unit", "blender", "size", "samples")
+    changed = [f"--{name}" for name in made_by if getattr(options, name) != parser.get_default(name)]
+    if options.reuse and changed:
+        parser.error(f"--reuse takes the pictures as they are, which {' and '.join(changed)} would not change")
     return options
 
 

@@ -94,6 +94,7 @@ def test_by_default_beside_the_file_as_the_scene_has_it(program: Program) -> Non
         (["--out", "/proc/nothing"], "Cannot write to /proc/nothing"),
         (["--scene", "Nothing"], "There is no scene 'Nothing'"),
         (["--speed", "9"], "unrecognized arguments: --speed 9"),
+        (["--freeze", "/tmp/frozen.blend", "--again"], "nothing is rendered, which --again is about: leave it out"),
     ],
 )
 def test_bad_arguments(program: Program, arguments: list[str], told: str) -> None:

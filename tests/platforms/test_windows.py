@@ -18,8 +18,8 @@ PROJECT = Path(__file__).parents[2]
 WINDOWS = PROJECT / "build" / "windows"
 #: What starts the C++ program, which is not built for Windows, POSIX's programs, or this machine's Python.
 LEFT_OUT = (
-    "command_line", "command_line_killed", "files", "flamenco_job", "house", "mesh_formats", "package_digests", "setup",
-    "skin_command", "stubs", "studies", "thickness_heads",
+    "command_line", "command_line_killed", "command_line_outputs", "docs", "files", "flamenco_job", "house",
+    "mesh_formats", "package_digests", "setup", "skin_command", "stubs", "studies", "thickness_heads",
 )  # fmt: skip
 #: By Python, what pytest runs.
 TESTS = dict.fromkeys(

@@ -54,3 +54,24 @@ def test_a_table_that_a_spreadsheet_saved_is_the_same(tmp_path):
     skinglow("compare", one, other, "--max-rms", 0)  # their bytes tell when they were written
     (tmp_path / "b.csv").write_text("\n".join([*lines[:-2], "", lines[-1], ""]))
     assert "none may be missing" in refused("povray", RIG, *mesh, "--lut", tmp_path / "b.csv", "-o", tmp_path / "c")
+
+
+@pytest.mark.parametrize(
+    ("told", "arguments"),
+    [
+        ("--encoding are of a PNG", ("lut", RIG, "--bits", 16, "-o", "a.exr")),
+        ("--encoding are of a PNG", ("lut", RIG, "--encoding", "linear", "-o", "a.csv", "--preview", "p.png")),
+        ("--scale is of heat maps", ("compare", "a.exr", "a.exr", "--scale", 1)),
+        ("--coefficients would not change", ("lut", RIG, "--skin", "ear", "--coefficients", 1, 0, 1, "-o", "a.exr")),
+        ("--blood would not change", ("lut", RIG, "--mode", "physical", "--blood", 1, 1, 1, "-o", "a.exr")),
+        ("--blood would not change", ("povray", "--mode", "physical", "--blood", 1, 1, 1)),
+        ("--point would not change", ("povray", "--mode", "existing", "--point", 1, 1, 1)),
+        ("--coefficients would not change", ("povray", "--lut", "a.exr", "--coefficients", 1, 0, 1)),
+    ],
+)
+def test_an_option_that_would_change_nothing_is_refused(tmp_path, told, arguments):
+    files = [tmp_path / str(word) if str(word).endswith((".exr", ".csv", ".png")) else word for word in arguments]
+    if arguments[0] == "povray":
+        files[1:1] = [RIG, "--mesh", cube_obj(tmp_path / "cube.obj"), "-o", tmp_path / "scene"]
+    assert told in refused(*files)
+    assert [path.name for path in tmp_path.iterdir()] in ([], ["cube.obj"])

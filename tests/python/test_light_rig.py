@@ -1,5 +1,8 @@
-"""Light rigs from files, as Python gets them; what a file may hold is tested with the reader itself, in tests/io."""
+"""Light rigs from files, as Python gets them; what a file may hold is tested with the reader, in tests/rig_files."""
 
+import os
+import re
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -59,3 +62,15 @@ def test_missing_file_and_a_camera_for_a_rig_file(tmp_path: Path) -> None:
         sg.read_light_rig(tmp_path / "none.json")
     with pytest.raises(ValueError, match="camera_rotation"):
         sg.read_light_rig(DATA / "table1.json", camera_rotation=(0.0, 0.0, 0.0))
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names are text elsewhere")
+def test_a_name_that_is_no_text(tmp_path):
+    """POSIX' names are bytes; Python's text has those that are no UTF-8 as surrogates."""
+    text = os.fsdecode(bytes(tmp_path) + b"/caf\xe9")
+    (tmp_path / f"{text}.sl").write_bytes((DATA / "two_lamps.sl").read_bytes())
+    for path in (f"{text}.sl", os.fsencode(f"{text}.sl"), Path(f"{text}.sl")):
+        assert os.fsencode(sg.read_light_rig(path).name) == b"caf\xe9"
+    for name, turned in ((f"{text}.none", None), (f"{text}.json", (0.0, 0.0, 0.0))):
+        with pytest.raises(ValueError, match=re.escape(name)):
+            sg.read_light_rig(name, turned)

@@ -136,6 +136,39 @@ def test_refusals_are_one_line_that_names_the_thing(tmp_path: Path, capsys: pyte
     assert not out.exists()
 
 
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (f"{RIG} --tolerance 0.05 --mode paper", "belong to --mode physical"),
+        ("--mode existing --blood 1 1 1", "there is no RIG, which --blood would not change"),
+        ("--skin ear --camera-rotation 1 2 3", "there is no RIG, which --camera-rotation would not change"),
+        (f"{RIG} --skin ear --coefficients 1 2 3", "--coefficients would not change"),
+    ],
+)
+def test_an_option_that_would_change_nothing_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture, words: str, told: str
+) -> None:
+    assert told in refused(capsys, "lut", *words.split(), "-o", tmp_path / "a.csv")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names are text elsewhere")
+def test_files_whose_names_are_no_text(tmp_path: Path) -> None:
+    """POSIX' names are bytes; a terminal in UTF-8, whose Python refuses to print others, must not end what is done."""
+    name = os.fsdecode(b"caf\xe9")
+    (tmp_path / f"{name}.json").write_bytes(RIG.read_bytes())
+    command = [sys.executable, "-m", "skinglow", "lut", "--size", "8", "-o", f"{name}.csv"]
+    strict = {**os.environ, "PYTHONIOENCODING": "utf-8:strict"}
+    runs = [
+        subprocess.run([*command, file], cwd=tmp_path, env=strict, capture_output=True, check=False)
+        for file in (f"{name}.json", f"none {name}.json")
+    ]
+    assert runs[0].returncode == 0 and runs[0].stderr == b""
+    assert runs[0].stdout.startswith(b"caf\\udce9.csv: mode paper")
+    assert len(read(tmp_path / f"{name}.csv")) == 8
+    assert runs[1].returncode == 2 and b"skinglow: file none caf\\udce9.json: cannot be" in runs[1].stderr
+
+
 def test_a_folder_that_is_closed_is_told_by_the_name_that_was_given(
     tmp_path: Path, capsys: pytest.CaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -27,6 +27,30 @@ def test_each_study_can_be_run(name):
     assert callable(importlib.import_module(f"studies.{name}.study").main)
 
 
+def test_each_study_tells_its_options(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    before = (IMAGES / "architecture.svg").stat()
+    for name in command.STUDIES:
+        for options, code in ((["--help"], 0), (["--no-such-option"], 2)):
+            with pytest.raises(SystemExit) as end:
+                importlib.import_module(f"studies.{name}.study").main(options)
+            assert end.value.code == code, name
+        assert "usage: " in capsys.readouterr().out
+    assert list(tmp_path.iterdir()) == [] and (IMAGES / "architecture.svg").stat() == before
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["demo --quick --docs", f"demo --quick --rig {__file__}", "batch --scene --docs", "ear --reuse --size 64 --unit 2"],
+)
+def test_an_option_that_would_change_nothing_is_refused(tmp_path, monkeypatch, capsys, words):
+    monkeypatch.chdir(tmp_path)
+    name, *options = words.split()
+    with pytest.raises(SystemExit) as end:
+        importlib.import_module(f"studies.{name}.study").main(options)
+    assert end.value.code == 2 and "error: " in capsys.readouterr().err and list(tmp_path.iterdir()) == []
+
+
 def pictures_named_in(study: str) -> list[str]:
     """Patterns of the file names in a study's sources; what is filled in is any word."""
     text = "".join(path.read_text() for path in sorted((ROOT / "studies" / study).glob("*.py")))

@@ -157,6 +157,9 @@ def _freeze(options: argparse.Namespace, out: str, scene: bpy.types.Scene, progr
     """Freezes from the first to the last of the frames, and saves."""
     if options.rigs is not None:
         raise SkinError("--freeze: the lights are frozen as they are in the scene: leave out --rigs")
+    for name in ("pattern", "onto", "again", "worker"):
+        if getattr(options, name) != parser().get_default(name):
+            raise SkinError(f"--freeze: nothing is rendered, which --{name} is about: leave it out")
     frames = parse_frames(options.frames) if options.frames else (scene.frame_start, scene.frame_end)
     frozen = freeze(
         None, min(frames), max(frames), out, scene=scene, progress=lambda done: progress.fraction(done, "frozen")

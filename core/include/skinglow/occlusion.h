@@ -14,7 +14,7 @@
 /// @code
 /// const std::vector<skinglow::MeshView> meshes = {skin, hat};
 /// const skinglow::Occluders occluders(meshes, center_of_skin);
-/// // The far side of the skin (surface_lighting.h), which the skin itself must not shadow:
+/// // The far side of the skin (far_side, rig.h), which the skin itself must not shadow:
 /// const auto visible =
 ///     skinglow::visible_fraction(occluders, lights, far.points, far.normals, {.excluded = {0}});
 /// @endcode

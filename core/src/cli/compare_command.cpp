@@ -1,5 +1,6 @@
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 
 #include "cli/commands.h"
 #include "cli/output_text.h"
@@ -71,6 +72,9 @@ void print_text(const ImageComparison& comparison, std::optional<double> heat_ma
 /// @return the exit code
 int run_compare(const CompareArguments& options) {
     if (options.max_rms) require_not_negative("--max-rms", *options.max_rms);
+    if (options.scale && options.heat_map.empty() && options.side_by_side.empty())
+        throw std::invalid_argument(
+            "--scale is of heat maps: give --heatmap or --side-by-side, or leave it out");
     refuse_overwriting({options.heat_map, options.side_by_side},
                        {options.first, options.second, options.mask});
     require_writable(options.heat_map, "a heat map", {".png"});

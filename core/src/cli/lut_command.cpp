@@ -3,6 +3,7 @@
 
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "cli/commands.h"
@@ -12,6 +13,7 @@
 #include "files/atomic_file.h"
 #include "files/lut_file.h"
 #include "numerics/argument_check.h"
+#include "rig_files/file_error.h"
 
 namespace skinglow::cli {
 namespace {
@@ -20,8 +22,8 @@ struct LutArguments {
     RigOptions rig;
     TableOptions table;
     SkinOptions skin;
-    int bits = 8;
-    std::string encoding = "srgb";
+    std::optional<int> bits;
+    std::optional<std::string> encoding;
     std::string output;
     std::string preview;
 };
@@ -49,14 +51,15 @@ LutTable paper_table(const LutArguments& options) {
 
 /// The light that leaves the skin, M(d) E; without lights that of a white light that brings 1 W/m^2.
 LutTable physical_table(const LutArguments& options) {
-    const SkinLut skin = options.table.solve_skin(options.skin);
     glm::dvec3 irradiance(1.0);
     if (options.rig.given()) {
+        options.rig.require_used(LutMode::physical);
         const LightRig rig = options.rig.read();
         irradiance = object_irradiance(rig.lights, rig.point);
     } else if (options.rig.any_used()) {
         throw std::invalid_argument("options of lights need a RIG file");
     }
+    const SkinLut skin = options.table.solve_skin(options.skin);
     std::cout << "skin solved with " << skin.report.streams << " streams, error at most "
               << short_number(skin.report.estimated_error) << "; E " << to_text(irradiance)
               << " W/m^2; radiance is the table over pi\n";
@@ -69,11 +72,17 @@ void run_lut(const LutArguments& options) {
     refuse_overwriting({options.output, options.preview}, {options.rig.path(), options.table.base_path()});
     require_writable(options.output, "a table", {".exr", ".png", ".csv"});
     require_writable(options.preview, "a preview", {".png"});
+    if ((options.bits || options.encoding) && small_extension(options.output) != ".png") {
+        throw std::invalid_argument(
+            "--bits and --encoding are of a PNG, and " + options.output +
+            " is none; .exr and .csv hold the numbers themselves: leave them out, or name it .png");
+    }
     LutTable table = mode == LutMode::existing   ? existing_table(options)
                      : mode == LutMode::physical ? physical_table(options)
                                                  : paper_table(options);
     table.record.mode = mode;
-    const PngOptions png{options.bits, options.encoding == "linear" ? Encoding::linear : Encoding::srgb};
+    const PngOptions png{options.bits.value_or(8),
+                         options.encoding == "linear" ? Encoding::linear : Encoding::srgb};
     const LutWriteReport report = write_lut(options.output, table, png);
     if (report.clamped_texels > 0) {
         tell(options.output, std::to_string(report.clamped_texels) + " of " +
@@ -98,9 +107,10 @@ void add_lut_command(CLI::App& program) {
     options->rig.add_to(*command, RigNeed::optional);
     options->table.add_to(*command);
     options->skin.add_to(*command);
-    command->add_option("--bits", options->bits, "Of a PNG")->check(CLI::IsMember({8, 16}));
+    command->add_option("--bits", options->bits, "Of a PNG")->check(CLI::IsMember({8, 16}))->default_str("8");
     command->add_option("--encoding", options->encoding, "Of a PNG")
-        ->check(CLI::IsMember({"srgb", "linear"}));
+        ->check(CLI::IsMember({"srgb", "linear"}))
+        ->default_str("srgb");
     add_option(*command, "-o,--output", options->output, "FILE", "File to write: .exr, .png or .csv")
         .required();
     add_option(*command, "--preview", options->preview, "FILE", "Also write a PNG to look at, 512 x 64");

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 #include <stdexcept>
+#include <variant>
 
 #include "cli/commands.h"
 #include "cli/mesh_options.h"
@@ -16,6 +17,7 @@
 #include "cli/rig_options.h"
 #include "cli/table_options.h"
 #include "files/atomic_file.h"
+#include "geometry/smooth_normals.h"
 #include "numerics/argument_check.h"
 
 namespace skinglow::cli {
@@ -36,6 +38,14 @@ struct PovrayArguments {
     std::optional<std::array<double, 3>> surface;
 };
 
+/// Files of meshes are read without their normals; folds of skin are rounder than this, edges of boxes are not.
+constexpr double sharp_edge = std::numbers::pi / 3.0;
+
+bool is_spread(const Light& light) {
+    const auto* area = std::get_if<AreaLight>(&light.shape());
+    return area != nullptr && is_on(light) && area->spread < std::numbers::pi;
+}
+
 /// The mesh in the scene's axes: one with y up is turned as Blender's importers do.
 TriangleMesh turn_upright(const TriangleMesh& mesh, bool y_up) {
     if (!y_up) return mesh;
@@ -49,9 +59,11 @@ PovrayCamera frame(const TriangleMesh& mesh, const PovrayArguments& options) {
     PovrayCamera camera;
     camera.width = options.width;
     camera.height = options.height;
-    const double angle =
-        require_positive("--field-of-view", options.field_of_view) * std::numbers::pi / 180.0;
-    if (options.width == 0 || options.height == 0) refuse_argument("picture size", "0", "1 to 65535 pixels");
+    if (!(options.field_of_view > 0.0 && options.field_of_view < 180.0))
+        refuse_argument("--field-of-view", to_text(options.field_of_view), "degrees above 0 and below 180");
+    const double angle = options.field_of_view * std::numbers::pi / 180.0;
+    if (options.width == 0 || options.height == 0)
+        refuse_argument(options.width == 0 ? "--width" : "--height", "0", "1 to 65535 pixels");
     set_field_of_view(camera, angle);
     const Box box = box_of(mesh.vertices());
     const double narrow =
@@ -70,6 +82,7 @@ PovrayLut use_table(const PovrayArguments& options, std::map<std::string, std::s
         throw std::invalid_argument(
             "--lut brings its own table: leave out --mode, --base, --size, --max-thickness and the skin's");
     }
+    options.rig.require_used(RigNumbers::none, "--lut brings its own table");
     const LutFile file = read_lut(options.lut);
     for (const std::string& note : file.notes) tell(options.lut, note);
     PovrayLut lut;
@@ -87,6 +100,7 @@ PovrayLut compute_table(const PovrayArguments& options) {
     PovrayLut lut;
     lut.strength = options.strength;
     lut.mode = options.table.mode(options.skin);
+    options.rig.require_used(lut.mode);
     if (lut.mode == LutMode::physical) {
         const BaseLut skin = options.table.solve_skin(options.skin).lut;
         lut.axis = skin.axis();
@@ -113,6 +127,7 @@ const std::set<std::string> scene_files = {"camera.inc", "columns.inc", "lights.
 /// Nothing that is read may stand where a file of the scene will.
 void check_folder(const PovrayArguments& options) {
     std::vector<std::filesystem::path> outputs;
+    outputs.reserve(scene_files.size());
     for (const std::string& name : scene_files)
         outputs.push_back(std::filesystem::path(options.folder) / name);
     std::vector<std::filesystem::path> inputs = options.mesh.sources();
@@ -134,9 +149,17 @@ void run_povray(PovrayArguments& options) {
     scene.lut.point = rig.point;
     scene.lut.coefficients = rig.coefficients;
     scene.lut.blood_weight = rig.blood_weight;
-    if (const auto& rgb = options.surface)
-        scene.surface = PovraySurface{{(*rgb)[0], (*rgb)[1], (*rgb)[2]}, ""};
     scene.mesh.geometry = mesh;
+    if (const auto& rgb = options.surface) {
+        scene.surface = PovraySurface{{(*rgb)[0], (*rgb)[1], (*rgb)[2]}, ""};
+        scene.mesh.corner_normals = smooth_normals(mesh, sharp_edge);
+        if (std::any_of(rig.lights.begin(), rig.lights.end(), is_spread)) {
+            tell(
+                options.rig.path(),
+                "the spread of an area light is a cone in POV-Ray: light on the surface is up to 15 % of the "
+                "brightest off");
+        }
+    }
     const double thickest = scene.lut.axis.max_thickness_mm();
     std::size_t thin = 0;
     for (const double thickness : options.mesh.measure(mesh)) {
@@ -179,7 +202,8 @@ void add_povray_command(CLI::App& program) {
     add_option(*command, "--field-of-view", options->field_of_view, "DEGREES", "Angle that the width covers");
     add_option(*command, "--strength", options->strength, "X", "Of the glow");
     add_option(*command, "--surface", options->surface, "R G B",
-               "Also a matt surface of this color, lit by the lights");
+               "Also a matt surface of this color, lit by the lights; smooth where faces meet at less than "
+               "60 degrees");
     command->footer(
         "Example: skinglow povray table1.json --mesh head.obj --unit 100 --group body --up y -o scene\n"
         "Example: skinglow povray table1.json --mesh head.obj --mode physical --skin ear -o scene");

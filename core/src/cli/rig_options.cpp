@@ -32,6 +32,21 @@ void RigOptions::add_to(CLI::App& command, RigNeed need) {
                whose + ", XYZ in degrees; else 90 0 0, Blender's front view");
 }
 
+void RigOptions::require_used(RigNumbers used, const std::string& why) const {
+    const auto refuse = [&](bool given, const char* name) {
+        if (given) throw std::invalid_argument(why + ", which " + name + " would not change: leave it out");
+    };
+    if (used == RigNumbers::all) return;
+    refuse(coefficients_.has_value(), "--coefficients");
+    refuse(blood_.has_value(), "--blood");
+    if (used == RigNumbers::none) refuse(point_.has_value(), "--point");
+}
+
+void RigOptions::require_used(LutMode mode) const {
+    if (mode == LutMode::physical) require_used(RigNumbers::point, "--mode physical is light in W/m^2");
+    if (mode == LutMode::existing) require_used(RigNumbers::none, "--mode existing has a fixed table");
+}
+
 glm::dmat3 RigOptions::camera() const {
     if (!camera_degrees_) return front_view;
     return camera_axes(to_vector(*camera_degrees_) * (std::numbers::pi / 180.0));

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "files/lut_file.h"
 #include "rig_files/light_rig.h"
 
 namespace skinglow::cli {
@@ -15,6 +16,9 @@ enum class RigNeed {
     optional,
     with_camera  ///< required, and the command has a camera of its own, which --camera-rotation turns
 };
+
+/// Which of the rig's numbers an outcome depends on.
+enum class RigNumbers { all, point, none };
 
 /// The options by which commands take lights: a rig file, and what stands on the command line instead.
 class RigOptions {
@@ -26,6 +30,11 @@ class RigOptions {
     const std::string& path() const { return rig_path_; }
     /// True where an option that needs a rig was used.
     bool any_used() const { return given() || point_ || coefficients_ || blood_ || camera_degrees_; }
+    /// @param why  what the outcome is, for the message
+    /// @throws std::invalid_argument where an option gives a number that the outcome would not depend on
+    void require_used(RigNumbers used, const std::string& why) const;
+    /// The same for a table of that mode.
+    void require_used(LutMode mode) const;
     /// Axes of the camera by --camera-rotation, else Blender's front view.
     glm::dmat3 camera() const;
     /// Reads the rig (JSON or *.sl) and puts the command line's numbers in place. What reading decided is
