@@ -60,7 +60,7 @@ FaceTiles layout_of_arrays(py::handle vertices, py::handle face_sizes, py::handl
     std::vector<std::uint8_t> flags;
     if (!wanted.is_none()) {
         flags = to_flags(wanted, "wanted");
-        require_count("wanted", flags.size(), points.size(), "vertex");
+        require_count("wanted", flags.size(), points.size(), "one per vertex");
     }
     const std::size_t most = numpy::to_count(max_texels, "max_texels");
     return numpy::without_gil([&] {

@@ -39,7 +39,7 @@ DescribedTissue with_changes(const Tissue& start, const std::string& description
             !PyNumber_Check(value.ptr())) {
             refuse_argument(name, py::repr(value).cast<std::string>(), "a number");
         }
-        result.tissue.*found->field = value.cast<double>();
+        result.tissue.*found->field = numpy::to_number(value, name);
     }
     validate(result.tissue);
     return result;

@@ -31,13 +31,13 @@ def real_number(name: str, given: float) -> float:
     return float(numbers)
 
 
-def whole_number(name: str, given: int) -> int:
-    """A whole number that the compiled modules' 32 bits hold; else ValueError. A float is none, even if it is whole."""
+def whole_number(name: str, given: int, largest: int = 2**31 - 1) -> int:
+    """A whole number, by default one of the compiled modules' 32 bits; else ValueError. A float is none."""
     try:
         number = operator.index(given)
     except TypeError:
         number = None
-    if number is None or abs(number) >= 2**31:
+    if number is None or abs(number) > largest:
         raise ValueError(f"{name} is {reprlib.repr(given)}; allowed: a whole number (an integer type)")
     return number
 

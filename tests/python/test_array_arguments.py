@@ -90,7 +90,7 @@ def test_numbers_beyond_single_precision_are_no_warning() -> None:
             "lut_u is 0 entries; allowed: 3",
         ),
         (lambda: scene(glow_uv=np.empty((0, 3, 2))), "glow_uv is 0 entries; allowed: 3"),
-        (lambda: sg.FaceTiles(TRIANGLE, [3], [0, 1, 2], []), "wanted is 0 entries; allowed: 3"),
+        (lambda: sg.FaceTiles(TRIANGLE, [3], [0, 1, 2], []), "wanted is 0 entries; allowed: 3, one per vertex"),
     ],
 )
 def test_an_empty_array_is_not_the_same_as_none(call, message) -> None:
@@ -133,6 +133,22 @@ def test_an_empty_array_is_not_the_same_as_none(call, message) -> None:
         (lambda: sg.FaceTiles(TRIANGLE, [3], [0, 1, 2], max_texels=-1), "max_texels is -1"),
         (lambda: sg.TileTargets(TRIANGLE, [[0, 1, 2]], np.zeros((1, 3, 3)), -1), "height is -1"),
         (lambda: sg.light_report([], (0, 0, 0), kept=[-1]), r"kept\[0\] is -1"),
+        (lambda: sg.Tissue(blood_fraction=1j), "blood_fraction is 1j"),
+        (lambda: sg.Tissue(blood_fraction=np.array([0.01])), r"blood_fraction is of shape \(1,\); allowed: one number"),
+        (lambda: sg.slab([sg.Layer()], 1j), "incidence is 1j"),
+        (lambda: scene(angle_x="wide"), "angle_x is 'wide'"),
+        (lambda: scene(base=5), "base is 5; allowed: a skinglow.BaseLut"),
+        (lambda: scene(base=None, size=4, max_thickness_mm="thick"), "max_thickness_mm is 'thick'"),
+        (lambda: scene(base=None, size=4.5, max_thickness_mm=1.0), "size is 4.5; allowed: 1 to 65536"),
+        (lambda: sg.thickness_summary([1.0], "thick"), "limit_mm is 'thick'"),
+        (lambda: sg.thickness_summary([1.0], 2.0, bins=1.5), "bins is 1.5; allowed: a whole number"),
+        (lambda: sg.thickness_colors([1.0], None), "max_mm is None"),
+        (
+            lambda: sg.bake_thickness(np.zeros((1, 3, 2)), np.zeros((1, 3)), 4.0, 4),
+            "width is 4.0; allowed: a whole number",
+        ),
+        (lambda: sg.gray_png([[0.5]], 8.0), "bits is 8.0; allowed: a whole number"),
+        (lambda: sg.stratified_indices(10, 2.5), "samples is 2.5; allowed: a whole number"),
     ],
 )
 def test_what_is_wrong_is_named(call, message) -> None:
