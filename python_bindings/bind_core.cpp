@@ -153,11 +153,11 @@ texel_mapping  (scale, offset), as BaseLut.texel_mapping
 thickness_mm   (k,), finite. Raises ValueError naming the entry.)");
     m.def(
         "six_gaussian_lookup",
-        [](std::size_t size, double max_thickness_mm) {
+        [](std::int64_t size, double max_thickness_mm) {
             std::vector<glm::dvec3> colors;
             {
                 const py::gil_scoped_release released;
-                colors = six_gaussian_lookup({size, max_thickness_mm});
+                colors = six_gaussian_lookup({numpy::to_count(size, "size"), max_thickness_mm});
             }
             return numpy::from_vec3s(std::move(colors));
         },
@@ -166,8 +166,8 @@ thickness_mm   (k,), finite. Raises ValueError naming the entry.)");
 (d'Eon and Luebke, GPU Gems 3, 2007, ch. 14): sum of w_i exp(-d^2 / v_i). It knows no lights.)");
     m.def(
         "six_gaussian_base",
-        [](std::size_t size, double max_thickness_mm) {
-            return six_gaussian_base({size, max_thickness_mm});
+        [](std::int64_t size, double max_thickness_mm) {
+            return six_gaussian_base({numpy::to_count(size, "size"), max_thickness_mm});
         },
         "size"_a = default_lut_size, "max_thickness_mm"_a = default_max_thickness_mm,
         py::call_guard<py::gil_scoped_release>(),

@@ -53,29 +53,31 @@ std::vector<std::uint8_t> to_flags(py::handle value, const char* name) {
 }
 
 FaceTiles layout_of_arrays(py::handle vertices, py::handle face_sizes, py::handle corners, py::handle wanted,
-                           double unit_mm, double spacing_mm, std::size_t max_texels) {
+                           double unit_mm, double spacing_mm, std::int64_t max_texels) {
     const std::vector<glm::dvec3> points = numpy::to_vec3s(vertices, "vertices");
     const std::vector<std::uint32_t> sizes = to_indices(face_sizes, "face_sizes");
     const std::vector<std::uint32_t> indices = to_indices(corners, "corners");
     std::vector<std::uint8_t> flags;
     if (!wanted.is_none()) {
         flags = to_flags(wanted, "wanted");
-        require_count("wanted", flags.size(), points.size(), "vertex");
+        require_count("wanted", flags.size(), points.size(), "one per vertex");
     }
+    const std::size_t most = numpy::to_count(max_texels, "max_texels");
     return numpy::without_gil([&] {
-        return FaceTiles(points, sizes, indices, flags, {unit_mm, spacing_mm, max_texels});
+        return FaceTiles(points, sizes, indices, flags, {unit_mm, spacing_mm, most});
     });
 }
 
 TileTargets targets_of_arrays(py::handle vertices, py::handle triangles, py::handle texels,
-                              std::size_t height, double unit_mm) {
+                              std::int64_t height, double unit_mm) {
+    const std::size_t image_rows = numpy::to_count(height, "height");
     const TriangleMesh mesh = numpy::to_mesh(vertices, triangles);
     const numpy::FloatArray rows = numpy::to_floats(texels, "texels");
     if (rows.ndim() != 3 || rows.shape(1) != 3 || rows.shape(2) != 3)
         refuse_argument("texels", "of shape " + numpy::shape_text(rows), "shape (m, 3, 3)");
     const std::span of_corners(reinterpret_cast<const glm::vec3*>(rows.data()),
                                3 * static_cast<std::size_t>(rows.shape(0)));
-    return numpy::without_gil([&] { return TileTargets(mesh, of_corners, height, unit_mm); });
+    return numpy::without_gil([&] { return TileTargets(mesh, of_corners, image_rows, unit_mm); });
 }
 
 /// (n, columns), or (n,): one column.

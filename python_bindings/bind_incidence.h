@@ -6,6 +6,7 @@
 #include <string>
 
 #include "numerics/argument_check.h"
+#include "numpy_conversion.h"
 
 namespace skinglow {
 
@@ -22,7 +23,7 @@ inline Incidence to_incidence(pybind11::handle value) {
     if (PyNumber_Check(value.ptr()) == 0) {
         refuse_argument("incidence", pybind11::repr(value).cast<std::string>(), allowed);
     }
-    return Incidence::oblique(value.cast<double>());
+    return Incidence::oblique(numpy::to_number(value, "incidence"));
 }
 
 }  // namespace skinglow

@@ -132,6 +132,14 @@ Raises ValueError naming light, field, value and what is allowed.)");
 
 motion  (4, 4), on column vectors: a rotation, orthogonal to 1e-5, mirroring or not, and a translation. The inverse of a
         body's motion gives the light as seen from the body. Raises ValueError on any other.)")
+        .def(
+            "__eq__", [](const Light& self, const Light& other) { return self == other; }, py::is_operator())
+        .def("__hash__",
+             [](const Light& self) {
+                 // By Python's hash: 0 and -0, which are equal, have one.
+                 return py::hash(py::make_tuple(self.name(), to_text(self.kind()), self.power(),
+                                                self.position().x, self.position().y, self.position().z));
+             })
         .def("__repr__", [](const Light& self) {
             return "<skinglow.Light \"" + self.name() + "\" " + std::string(to_text(self.kind())) +
                    ", color " + to_text(self.color()) + ", power " + to_text(self.power()) +

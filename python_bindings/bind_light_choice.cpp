@@ -33,13 +33,17 @@ py::dict to_dict(const CullingResult& result) {
 
 py::list report_as_dicts(py::handle lights, py::handle point, py::handle normal,
                          const std::vector<bool>& occluded,
-                         const std::optional<std::vector<std::size_t>>& kept) {
+                         const std::optional<std::vector<std::int64_t>>& kept) {
     std::optional<glm::dvec3> facing;
     if (!normal.is_none()) facing = numpy::to_vec3(normal, "normal");
     const glm::dvec3 at = numpy::to_vec3(point, "point");
     const PreparedRig rig = numpy::to_rig(lights);
+    std::optional<std::vector<std::size_t>> left;
+    if (kept) left.emplace();
+    for (std::size_t i = 0; kept && i < kept->size(); ++i)
+        left->push_back(numpy::to_count((*kept)[i], "kept[" + std::to_string(i) + "]"));
     const std::vector<LightReportEntry> report =
-        without_gil([&] { return light_report(rig, at, facing, occluded, kept); });
+        without_gil([&] { return light_report(rig, at, facing, occluded, left); });
     py::list entries;
     for (const LightReportEntry& e : report) {
         entries.append(py::dict("index"_a = e.index, "name"_a = e.name, "kind"_a = to_text(e.kind),

@@ -98,21 +98,25 @@ PovrayCamera to_camera(py::handle matrix, py::handle resolution, py::handle proj
     if (!projection.is_none()) {
         set_projection(camera, to_mat4(projection, "projection"));
     } else if (!angle_x.is_none()) {
-        set_field_of_view(camera, angle_x.cast<double>(), to_vec2(shift, "shift"));
+        set_field_of_view(camera, numpy::to_number(angle_x, "angle_x"), to_vec2(shift, "shift"));
     } else {
-        set_orthographic(camera, ortho_width.cast<double>(), to_vec2(shift, "shift"));
+        set_orthographic(camera, numpy::to_number(ortho_width, "ortho_width"), to_vec2(shift, "shift"));
     }
     return camera;
 }
 
 LutAxis to_axis(py::handle base, py::handle size, py::handle max_thickness_mm) {
+    if (!base.is_none() && !py::isinstance<BaseLut>(base))
+        refuse_argument("base", py::repr(base).cast<std::string>(), "a skinglow.BaseLut or None");
     if (!base.is_none()) return base.cast<const BaseLut&>().axis();
     if (size.is_none() || max_thickness_mm.is_none()) {
         refuse_argument("axis", "not given", "base, or size and max_thickness_mm");
     }
-    const auto entries = size.cast<long long>();
-    if (entries < 1) refuse_argument("size", std::to_string(entries), "1 to 65536 entries");
-    return {static_cast<std::size_t>(entries), max_thickness_mm.cast<double>()};
+    if (!py::isinstance<py::int_>(size) && PyIndex_Check(size.ptr()) == 0)
+        refuse_argument("size", py::repr(size).cast<std::string>(), "1 to 65536 entries");
+    const double entries = numpy::to_number(size, "size");
+    if (!(entries >= 1 && entries <= 65536)) refuse_argument("size", to_text(entries), "1 to 65536 entries");
+    return {static_cast<std::size_t>(entries), numpy::to_number(max_thickness_mm, "max_thickness_mm")};
 }
 
 std::map<std::string, std::string> povray_files_of_arrays(

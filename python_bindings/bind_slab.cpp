@@ -69,12 +69,13 @@ py::dict directional(py::handle layers, double n_above, double n_below, int stre
                     "transmittance"_a = numpy::from_doubles(std::move(result.transmittance)));
 }
 
-ThicknessCurve make_curve(py::handle layers, std::size_t variable_layer, py::handle incidence, double n_above,
-                          double n_below, int streams) {
+ThicknessCurve make_curve(py::handle layers, std::int64_t variable_layer, py::handle incidence,
+                          double n_above, double n_below, int streams) {
     const std::vector<Layer> stack = to_layers(layers);
     const Incidence light = to_incidence(incidence);
+    const std::size_t variable = numpy::to_count(variable_layer, "variable_layer");
     const py::gil_scoped_release released;
-    return {stack, variable_layer, light, n_above, n_below, streams};
+    return {stack, variable, light, n_above, n_below, streams};
 }
 
 py::array curve_transmittance(const ThicknessCurve& self, py::handle thickness_mm) {

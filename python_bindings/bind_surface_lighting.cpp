@@ -18,11 +18,12 @@ namespace {
 
 SurfaceLighting make_lighting(py::handle lights, py::handle box_min, py::handle box_max,
                               const Environment* environment, const AngularWeight* angular_weight,
-                              std::size_t max_terms, double tolerance) {
+                              std::int64_t max_terms, double tolerance) {
     const PreparedRig rig = numpy::to_rig(lights);
     const Box box{numpy::to_vec3(box_min, "box_min"), numpy::to_vec3(box_max, "box_max")};
+    const std::size_t terms = numpy::to_count(max_terms, "max_terms");
     return without_gil([&] {
-        return SurfaceLighting(rig, box, {max_terms, tolerance, environment, angular_weight});
+        return SurfaceLighting(rig, box, {terms, tolerance, environment, angular_weight});
     });
 }
 

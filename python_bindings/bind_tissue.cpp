@@ -39,7 +39,7 @@ DescribedTissue with_changes(const Tissue& start, const std::string& description
             !PyNumber_Check(value.ptr())) {
             refuse_argument(name, py::repr(value).cast<std::string>(), "a number");
         }
-        result.tissue.*found->field = value.cast<double>();
+        result.tissue.*found->field = numpy::to_number(value, name);
     }
     validate(result.tissue);
     return result;
@@ -144,8 +144,10 @@ largest number of the column (or over 1e-6 where skin lets even less through); o
                       "Bound on the error of the table, from that of random skins at these streams.");
     m.def(
         "base_lut",
-        [](const DescribedTissue& self, std::size_t size, double max_thickness_mm, double tolerance,
-           int threads) { return base_lut(self.tissue, size, max_thickness_mm, tolerance, threads); },
+        [](const DescribedTissue& self, std::int64_t size, double max_thickness_mm, double tolerance,
+           int threads) {
+            return base_lut(self.tissue, numpy::to_count(size, "size"), max_thickness_mm, tolerance, threads);
+        },
         "tissue"_a, "size"_a = default_lut_size, "max_thickness_mm"_a = default_max_thickness_mm,
         "tolerance"_a = default_lut_tolerance, "threads"_a = 0, Released(),
         R"(The base lookup table of mode `physical`: M(d) of skin lit diffusely from behind, a BaseLut.
@@ -157,9 +159,10 @@ threads                 0: one for each processor
 Raises ValueError naming what is wrong.)");
     m.def(
         "base_lut_report",
-        [](const DescribedTissue& self, std::size_t size, double max_thickness_mm, double tolerance,
+        [](const DescribedTissue& self, std::int64_t size, double max_thickness_mm, double tolerance,
            int threads) {
-            SkinLut result = base_lut_report(self.tissue, size, max_thickness_mm, tolerance, threads);
+            SkinLut result = base_lut_report(self.tissue, numpy::to_count(size, "size"), max_thickness_mm,
+                                             tolerance, threads);
             return std::pair(std::move(result.lut), result.report);
         },
         "tissue"_a, "size"_a = default_lut_size, "max_thickness_mm"_a = default_max_thickness_mm,
@@ -167,8 +170,10 @@ Raises ValueError naming what is wrong.)");
         "base_lut with its report: (BaseLut, SkinLutReport).");
     m.def(
         "reference_lut",
-        [](const DescribedTissue& self, std::size_t size, double max_thickness_mm, int streams, int threads) {
-            return reference_lut(self.tissue, size, max_thickness_mm, streams, threads);
+        [](const DescribedTissue& self, std::int64_t size, double max_thickness_mm, int streams,
+           int threads) {
+            return reference_lut(self.tissue, numpy::to_count(size, "size"), max_thickness_mm, streams,
+                                 threads);
         },
         "tissue"_a, "size"_a = default_lut_size, "max_thickness_mm"_a = default_max_thickness_mm,
         "streams"_a = 64, "threads"_a = 0, Released(),

@@ -81,6 +81,16 @@ FloatArray to_floats(py::handle value, std::string_view name) {
     return result;
 }
 
+double to_number(py::handle value, std::string_view name) {
+    const Array array = to_array(value, name);
+    if (array.ndim() != 0) refuse_argument(name, "of shape " + shape_text(array), "one number");
+    return *array.data();
+}
+
+std::size_t to_count(std::int64_t given, std::string_view name) {
+    return static_cast<std::size_t>(require(name, given, given >= 0, "a whole number, 0 or more"));
+}
+
 glm::dvec3 to_vec3(py::handle value, std::string_view name) {
     const Array array = to_array(value, name);
     if (array.ndim() != 1 || array.shape(0) != 3) {

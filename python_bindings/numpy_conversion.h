@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 #include <skinglow/rig.h>
 
+#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -28,6 +29,13 @@ using FloatArray = pybind11::array_t<float, pybind11::array::c_style>;
 
 /// The same in single precision: an array of it as it is, not copied. What is beyond it becomes infinite.
 FloatArray to_floats(pybind11::handle value, std::string_view name);
+
+/// One real number; throws ValueError on anything else, where a cast of pybind11's throws RuntimeError.
+double to_number(pybind11::handle value, std::string_view name);
+
+/// How many, or which: pybind11 itself says of a negative one, where it wants none, that its type is wrong, and not
+/// which argument it is. Throws ValueError.
+std::size_t to_count(std::int64_t given, std::string_view name);
 
 /// Three numbers.
 glm::dvec3 to_vec3(pybind11::handle value, std::string_view name);

@@ -77,6 +77,7 @@ from skinglow._for_hosts import (
 )
 from skinglow._lit_shape import LitShape
 from skinglow._occlusion import Occluders, VisibleFraction
+from skinglow._pickled import register as _register
 from skinglow._renamed import __getattr__ as __getattr__
 from skinglow._shape import Shape, ShapePart
 from skinglow._spectra import line_spectrum
@@ -91,6 +92,8 @@ from skinglow._thickness_map import (
     thickness_summary,
 )
 from skinglow._thin_skin import near_thin_skin
+
+_register()
 
 __all__ = [
     "__version__",

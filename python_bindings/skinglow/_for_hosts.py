@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from skinglow._numbers import fixed, real_numbers
+from skinglow._numbers import fixed, real_numbers, whole_number
 
 if TYPE_CHECKING:
     from skinglow._core import Light, SurfaceLighting
@@ -48,7 +48,7 @@ def stratified_indices(count: int, samples: int) -> NDArray[np.int64]:
     Raises ValueError for a count below 0 or less than one sample.
     """
     for name, number, least in (("count", count, 0), ("samples", samples, 1)):
-        if not number >= least:
+        if not whole_number(name, number, largest=2**63 - 1) >= least:
             raise ValueError(f"{name} is {number!r}; allowed: {least} or more")
     if count <= samples:
         return np.arange(count)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from skinglow._core import Tissue
-from skinglow._numbers import fixed
+from skinglow._numbers import fixed, require_function
 
 if TYPE_CHECKING:
     from skinglow import _rays
@@ -53,7 +53,11 @@ class LitShape:
 
     @cached_property
     def per_light(self) -> NDArray[np.float64]:
-        """(k, n, 3): exitance by light alone. Solved when it is first asked for, each light by itself."""
+        """(k, n, 3): exitance by light alone, W/m^2. Solved when it is first asked for, each light by itself.
+
+        Of a light of negative power it is what that takes from the others: 0 or less. With the world's part all add up
+        to `exitance` where that is above 0, for a tissue under more than four lights within some percent.
+        """
         return fixed(self._lit.per_light())
 
     def recolor(
@@ -63,7 +67,9 @@ class LitShape:
 
         colors       (k, 3), linear Rec.709, finite, 0 or more, instead of the lights' own
         transmitted  what comes through instead of the exitance
+        progress     as of Shape
         """
+        require_function("progress", progress)
         return self._lit.recolor(colors, transmitted, progress)
 
     def with_tissue(self, tissue: Tissue) -> LitShape:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from skinglow._core import Light
+from skinglow._numbers import indices, whole_number
 from skinglow._rays_loader import load_rays
 from skinglow._renamed import renamed_keywords
 
@@ -41,6 +42,8 @@ class Occluders:
     """
 
     def __init__(self, meshes: Iterable[tuple[ArrayLike, ArrayLike]], origin: ArrayLike | None = None) -> None:
+        if not isinstance(meshes, Iterable):
+            raise ValueError(f"meshes is {meshes!r}; allowed: pairs (vertices, triangles)")
         self._rays = load_rays()
         self._scene: _rays.Occluders = self._rays.Occluders(meshes, origin)
 
@@ -75,8 +78,11 @@ class Occluders:
         threads          0: one for each processor; the result does not depend on it
         Raises ValueError naming the entry.
         """
-        count = self._rays.DEFAULT_SAMPLES if samples is None else samples
-        return VisibleFraction(*self._scene.visible_fraction(lights, points, normals, count, list(excluded), threads))
+        count = load_rays().DEFAULT_SAMPLES if samples is None else whole_number("samples", samples)
+        found = self._scene.visible_fraction(
+            lights, points, normals, count, indices("excluded", excluded), whole_number("threads", threads)
+        )
+        return VisibleFraction(*found)
 
     def visible_share(self, *arguments: Any, **keywords: Any) -> VisibleFraction:  # noqa: ANN401
         """The former name of visible_fraction."""

@@ -6,6 +6,8 @@ import importlib
 from functools import cache
 from types import ModuleType
 
+from skinglow._pickled import refuse_others
+
 __all__ = ["load_rays"]
 
 
@@ -17,4 +19,6 @@ def load_rays() -> ModuleType:
     the module's calls: its malloc and free would be the C library's. A whole Blender brings others (jemalloc, or
     TBB's), from which strdup and the core have memory that the module frees. require_embree refuses such an Embree.
     """
-    return importlib.import_module("skinglow._rays")
+    module = importlib.import_module("skinglow._rays")
+    refuse_others(module)
+    return module

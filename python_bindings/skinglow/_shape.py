@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from skinglow._core import Environment, Light, PreparedRig, Tissue
 from skinglow._lit_shape import LitShape
+from skinglow._numbers import indices, real_number, require_function, require_type, whole_number
 from skinglow._occlusion import Occluders
 from skinglow._rays_loader import load_rays
 
@@ -84,24 +85,27 @@ class Shape:
     ) -> None:
         if cell_mm is not None and tolerance is not None:
             raise ValueError(f"tolerance is {tolerance}; allowed: None, as cell_mm is given")
-        if tolerance is not None and not tolerance > 0.0:
+        if tolerance is not None and not real_number("tolerance", tolerance) > 0.0:
             raise ValueError(f"tolerance is {tolerance}; allowed: a number above 0")
+        if not isinstance(surface, str):
+            raise ValueError(f'surface is {surface!r}; allowed: "rough" or "smooth"')
+        require_function("progress", progress)
         self._shape: _rays.Shape = load_rays().Shape(
             vertices,
             triangles,
             tissue,
             absorption,
             reduced_scattering,
-            refractive_index,
+            real_number("refractive_index", refractive_index),
             surface,
-            unit_mm,
-            DEFAULT_CELL_MM if cell_mm is None else cell_mm,
-            max_thickness_mm,
+            real_number("unit_mm", unit_mm),
+            DEFAULT_CELL_MM if cell_mm is None else real_number("cell_mm", cell_mm),
+            real_number("max_thickness_mm", max_thickness_mm),
             points,
             normals,
-            threads,
+            whole_number("threads", threads),
             progress,
-            tolerance or 0.0,
+            0.0 if tolerance is None else real_number("tolerance", tolerance),
         )
 
     @property
@@ -151,12 +155,14 @@ class Shape:
 
         irradiance  (v, 3), or (v,) for all channels alike: at each vertex, W/m^2, up to 1e30; linear on triangles
         """
+        require_function("progress", progress)
         return self._shape.exitance(irradiance, progress)
 
     def exitance_error(
         self, irradiance: ArrayLike, *, progress: Callable[[float], bool] | None = None
     ) -> NDArray[np.float64]:
         """How far off `exitance` of that irradiance is taken to be, (n, 3), W/m^2: see LitShape.error."""
+        require_function("progress", progress)
         return self._shape.exitance_error(irradiance, progress)
 
     def light(
@@ -196,7 +202,9 @@ class Shape:
         solved again, all together; lights that were moved stay by themselves, so the next ones cost no more than what
         moved. The result is that of a call without it, to solver_tolerance.
         """
-        scene = None if occluders is None else occluders._scene
+        require_type("environment", environment, Environment, "a skinglow.Environment")
+        require_type("occluders", occluders, Occluders, "a skinglow.Occluders, made of the meshes")
+        require_function("progress", progress)
         if not isinstance(previous, LitShape | None):
             raise ValueError(f"previous is {previous!r}; allowed: what light() of this shape returned, or None")
         before = None if previous is None else previous._lit
@@ -204,12 +212,12 @@ class Shape:
             self._shape.light(
                 lights,
                 environment,
-                scene,
-                excluded,
-                shadowless,
-                reentries,
-                shadow_samples,
-                solver_tolerance,
+                None if occluders is None else occluders._scene,
+                indices("excluded", excluded),
+                indices("shadowless", shadowless),
+                whole_number("reentries", reentries),
+                whole_number("shadow_samples", shadow_samples),
+                real_number("solver_tolerance", solver_tolerance),
                 before,
                 occluder_frame,
                 progress,

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from skinglow._numbers import real_number, require_function, whole_number
 from skinglow._rays_loader import load_rays
 from skinglow._renamed import renamed_keywords
 
@@ -86,15 +87,17 @@ def thickness_report(
     progress: Callable[[float], bool] | None = None,
 ) -> ThicknessReport:
     """As `thickness`, and tells at which vertices no far side was found. Parameters and errors as there."""
+    require_function("progress", progress)
     module = load_rays()
+    cone = module.DEFAULT_CONE_HALF_ANGLE if cone_half_angle is None else cone_half_angle
     values, no_far_side = module.thickness_report(
         vertices,
         triangles,
-        unit_mm,
-        module.DEFAULT_RAYS if rays is None else rays,
-        module.DEFAULT_CONE_HALF_ANGLE if cone_half_angle is None else cone_half_angle,
-        min_sky_visibility,
-        threads,
+        real_number("unit_mm", unit_mm),
+        module.DEFAULT_RAYS if rays is None else whole_number("rays", rays),
+        real_number("cone_half_angle", cone),
+        real_number("min_sky_visibility", min_sky_visibility),
+        whole_number("threads", threads),
         progress,
     )
     return ThicknessReport(values, no_far_side)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from skinglow._numbers import fixed, real_numbers
+from skinglow._numbers import fixed, real_number, real_numbers, whole_number
 
 __all__ = [
     "ThicknessImage",
@@ -50,7 +50,7 @@ def thickness_summary(thickness_mm: ArrayLike, limit_mm: float, bins: int = 32) 
     """
     values = _finite("thickness_mm", thickness_mm, 1)
     _positive("limit_mm", limit_mm)
-    if bins < 1:
+    if whole_number("bins", bins) < 1:
         raise ValueError(f"bins = {bins!r} is not allowed: 1 or more")
     if not len(values):
         return ThicknessSummary(0.0, 0.0, 0.0, np.zeros(bins), 0.0)
@@ -61,7 +61,8 @@ def thickness_summary(thickness_mm: ArrayLike, limit_mm: float, bins: int = 32) 
 
 
 def thickness_colors(thickness_mm: ArrayLike, max_mm: float) -> NDArray[np.float64]:
-    """Colors (..., 3) of a heat map, sRGB 0 to 1: bright where thin, dark from max_mm on, gray where below 0.
+    """Colors (..., 3) of a heat map, sRGB 0 to 1: bright where thin, dark from max_mm on, gray where below 0
+    or not a number.
 
     thickness_mm  (...), mm
     max_mm        finite, above 0
@@ -71,7 +72,7 @@ def thickness_colors(thickness_mm: ArrayLike, max_mm: float) -> NDArray[np.float
     values = real_numbers("thickness_mm", thickness_mm)
     steps = np.clip(values / max_mm, 0.0, 1.0) * (len(RAMP) - 1)
     colors = np.stack([np.interp(steps, np.arange(len(RAMP)), RAMP[:, i] / 255.0) for i in range(3)], axis=-1)
-    return np.where(values[..., None] < 0.0, NO_THICKNESS, colors)
+    return np.where(values[..., None] >= 0.0, colors, NO_THICKNESS)
 
 
 class ThicknessImage(NamedTuple):
@@ -98,9 +99,10 @@ def bake_thickness(
     if corners.shape[1:] != (3, 2) or values.shape != corners.shape[:2]:
         raise ValueError(f"uv {corners.shape} and thickness_mm {values.shape} are not allowed: (m, 3, 2) and (m, 3)")
     for name, number, low in (("width", width, 1), ("height", height, 1), ("margin", margin, 0)):
-        if not low <= number <= 16384:
+        if not low <= whole_number(name, number) <= 16384:
             raise ValueError(f"{name} = {number!r} is not allowed: {low} to 16384")
-    image, covered = np.full((height, width), outside_mm, np.float32), np.zeros((height, width), bool)
+    outside = real_number("outside_mm", outside_mm)
+    image, covered = np.full((height, width), outside, np.float32), np.zeros((height, width), bool)
     # In texels, with the center of the first at 0.
     points = corners * (width, height) - 0.5
     edges, areas = _edge_functions(points)
@@ -189,7 +191,7 @@ def gray_png(values: ArrayLike, bits: int = 16) -> bytes:
     bits  8 or 16
     """
     image = _finite("values", values, 2)
-    if bits not in (8, 16) or not image.size:
+    if whole_number("bits", bits) not in (8, 16) or not image.size:
         raise ValueError(f"bits = {bits!r} and values of shape {image.shape}: allowed 8 or 16, and (h, w), not empty")
     height, width = image.shape
     levels = np.rint(np.clip(image[::-1], 0.0, 1.0) * (2**bits - 1)).astype(">u2" if bits == 16 else "u1")
@@ -202,7 +204,7 @@ def gray_png(values: ArrayLike, bits: int = 16) -> bytes:
 
 
 def _positive(name: str, number: float) -> None:
-    if not (np.isfinite(number) and number > 0.0):
+    if not (np.isfinite(real_number(name, number)) and number > 0.0):
         raise ValueError(f"{name} = {number!r} is not allowed: a finite number above 0")
 
 

@@ -198,7 +198,7 @@ def refusals(sg):
         "file": refusal(lambda: sg.read_light_rig("/no/such/rig.json")),
         "type in _core": refusal(lambda: sg.six_gaussian_base("many")),
         "thickness": refusal(lambda: sg.thickness([(0, 0, 0)], [(0, 1, 2)])),
-        "type in _rays": refusal(lambda: sg.thickness(*triangle, rays="many")),
+        "type in _rays": refusal(lambda: sg._rays_loader.load_rays().thickness_report(*triangle, "many")),
         "raised by progress": refusal(lambda: sg.thickness(*triangle, progress=lambda done: 1 / 0)),
         "cancelled": refusal(lambda: sg.thickness(*triangle, progress=lambda done: False)),
         "mesh": refusal(lambda: sg.Occluders([triangle, 5])),

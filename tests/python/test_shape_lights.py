@@ -48,6 +48,14 @@ def test_all_lights_together_are_the_sum_of_each(made):
     assert_close(lit.per_light.sum(axis=0), lit.exitance)
 
 
+def test_a_light_that_takes_away_is_what_it_takes(made):
+    """By itself it was nothing, and the single lights added up to more than all of them."""
+    less = sg.Light("POINT", (1.0, 0.7, 0.4), LIGHTS[0].position, power=-2.0, radius=0.01)
+    lit = made.light([LIGHTS[0], less])
+    np.testing.assert_allclose(lit.per_light[1], -0.4 * lit.per_light[0], rtol=1e-5)
+    np.testing.assert_allclose(lit.per_light.sum(axis=0), lit.exitance, atol=1e-4 * lit.exitance.max())
+
+
 def test_recoloring_is_a_light_of_that_color(made):
     colors = np.array([[0.1, 0.9, 0.3], [1.0, 1.0, 1.0], [0.0, 0.0, 0.0]])
     changed = [

@@ -31,6 +31,7 @@ def test_colors_get_darker_with_thickness() -> None:
     assert (np.diff(sg.luminance(colors)) < 0.0).all()
     np.testing.assert_array_equal(sg.thickness_colors([13.0, 12.0], 12.0)[0], colors[-1])
     assert np.ptp(sg.thickness_colors([-1.0], 12.0)) < 0.2
+    np.testing.assert_array_equal(sg.thickness_colors([np.nan], 12.0), sg.thickness_colors([-1.0], 12.0))
     for wrong in (0.0, -5.0, np.nan, np.inf):
         with pytest.raises(ValueError, match="max_mm = .* a finite number above 0"):
             sg.thickness_colors([0.0, 1.0], wrong)

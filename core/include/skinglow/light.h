@@ -87,6 +87,8 @@ struct LightSettings {
                          ///< only whether it is 0
     std::string name = {};  ///< for reports
     bool visible = true;    ///< false: off, left out of every sum
+
+    bool operator==(const LightSettings&) const = default;
 };
 
 /// A light that is checked, once, when it is made, and does not change.
@@ -113,6 +115,9 @@ class Light {
     /// @param motion  rotation, with or without a reflection, orthogonal to 1e-5, and translation: on column vectors,
     ///                else std::invalid_argument
     Light moved(const glm::dmat4& motion) const;
+
+    /// All that makes it is the same, its name included.
+    bool operator==(const Light&) const = default;
 
   private:
     LightSettings settings_;

@@ -83,7 +83,8 @@ using ShapeProgress = std::function<bool(double)>;
 /// The progress function returned false.
 class ShapeCancelled : public std::runtime_error {
   public:
-    ShapeCancelled() : std::runtime_error("shape: cancelled by the progress function") {}
+    ShapeCancelled()
+        : std::runtime_error("shape: cancelled by the progress function, which returns True to go on") {}
 };
 
 /// A thin part of a body, which is solved by itself.
@@ -152,8 +153,8 @@ class LitShape {
     /// exitance().
     const std::vector<std::size_t>& left_out() const;
 
-    /// Exitance by light alone: light k's at point i is [k * points + i]. The first call solves once for each
-    /// light, and again for the environment.
+    /// Exitance by light alone: light k's at point i is [k * points + i]; 0 or more, of a light of negative power 0 or
+    /// less: what it takes from the others. The first call solves once for each light, and again for the environment.
     std::vector<glm::dvec3> per_light(const ShapeProgress& progress = {}) const;
 
     /// The exitance with other colors of the lights: no more than sums once per_light() or this was called.

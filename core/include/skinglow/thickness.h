@@ -34,7 +34,8 @@ using ThicknessProgress = std::function<bool(double)>;
 /// The progress function returned false.
 class ThicknessCancelled : public std::runtime_error {
   public:
-    ThicknessCancelled() : std::runtime_error("thickness: cancelled by the progress function") {}
+    ThicknessCancelled()
+        : std::runtime_error("thickness: cancelled by the progress function, which returns True to go on") {}
 };
 
 /// Thickness of a body at each vertex, mm: the diameter of the ball that touches the surface there from

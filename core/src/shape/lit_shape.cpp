@@ -86,10 +86,13 @@ std::vector<glm::dvec3> LitShape::per_light(const ShapeProgress& progress) const
         for (std::size_t k = 0; k < lights(); ++k) {
             const ShapeData::Matrices* of_light = data_->solved->may_shine(k) ? data_->matrices(k) : nullptr;
             if (of_light == nullptr) continue;
-            const glm::dvec3 color = data_->solved->strength(k, data_->solved->rig.data().prepared[k].color);
+            const auto& light = data_->solved->rig.data().prepared[k];
+            const glm::dvec3 color = data_->solved->strength(k, light.color);
             for (std::size_t i = 0; i < points; ++i) {
+                const glm::dvec3 alone = glm::dmat3(of_light->exitance[site_of[i]]) * color;
+                // What is out of gamut is cut; what a light takes away is not.
                 result[k * points + i] =
-                    glm::max(glm::dmat3(of_light->exitance[site_of[i]]) * color, glm::dvec3(0.0));
+                    light.power < 0 ? glm::min(alone, glm::dvec3(0.0)) : glm::max(alone, glm::dvec3(0.0));
             }
         }
     });

@@ -22,7 +22,7 @@ constexpr double max_spacing = 4;
 std::vector<std::uint8_t> wanted_faces(const FaceList& faces, std::span<const std::uint8_t> wanted) {
     std::vector<std::uint8_t> result(faces.faces(), wanted.empty() ? 1 : 0);
     if (wanted.empty()) return result;
-    require_count("wanted", wanted.size(), faces.vertices(), "vertex");
+    require_count("wanted", wanted.size(), faces.vertices(), "one per vertex");
     for (std::size_t face = 0; face < result.size(); ++face) {
         for (std::uint32_t c = faces.begin()[face]; c < faces.begin()[face + 1]; ++c)
             if (wanted[faces.corners()[c]] != 0) result[face] = 1;

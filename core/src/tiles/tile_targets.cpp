@@ -67,7 +67,7 @@ TileTargets::TileTargets(const MeshView& mesh, std::span<const glm::vec3> texels
 }
 
 std::vector<double> TileTargets::at_vertices(std::span<const double> values, std::size_t columns) const {
-    check_values(values, vertices_, columns, "vertex", std::numeric_limits<double>::max());
+    check_values(values, vertices_, columns, "one per vertex and column", std::numeric_limits<double>::max());
     std::vector<double> result(points_.size() * columns);
     for (std::size_t i = 0; i < points_.size(); ++i) {
         const glm::uvec3& c = corners_[i];
@@ -85,9 +85,10 @@ std::vector<double> TileTargets::at_vertices(std::span<const double> values, std
 
 void TileTargets::spread(std::span<const double> values, std::size_t columns, std::size_t channels,
                          std::span<float> pixels) const {
-    check_values(values, points_.size(), columns, "target", std::numeric_limits<float>::max());
+    check_values(values, points_.size(), columns, "one per target and column",
+                 std::numeric_limits<float>::max());
     require("channels", channels, channels >= columns, "at least the columns of the values");
-    require_count("pixels", pixels.size(), of_texel_.size() * channels, "channel of each texel");
+    require_count("pixels", pixels.size(), of_texel_.size() * channels, "one per channel of each texel");
     const auto work = [&](std::size_t begin, std::size_t end) {
         for (std::size_t at = begin; at < end; ++at) {
             float* pixel = pixels.data() + at * channels;
