@@ -6,7 +6,7 @@ import skinglow_blender as sb
 from skinglow_blender.show.mask import ATTRIBUTE_PREFIX, MASK_PROPERTY
 
 from inside.material_sockets import connect, node_of, picture, skin_scene
-from inside.scenes import depsgraph, patch
+from inside.scenes import black_material, depsgraph, patch
 
 
 def painted(obj, name="Ears", weights=(0.0, 1.0, 1.0, 0.0)):
@@ -80,6 +80,57 @@ def check_a_group_that_is_not_there(work):
     obj.data.update()
     depsgraph()
     assert "no vertex group 'Ears'" in str(sb.health(obj)[0]) and picture(work).max() == 0.0
+
+
+def check_several_groups_and_attributes_of_the_artist(_work):
+    """Masks that go take no attribute of the artist with them; until 4.5 they took those made after them."""
+    obj = skin_scene()
+    mine = ["mine", "mine too"]
+    obj.data.materials.append(black_material("Second"))
+    sb.make_skin(obj)
+    groups = [painted(obj, name) for name in ("Ear.L", "Ear.R")]
+    for slot, group in zip(obj.material_slots, groups, strict=True):
+        slot.material.skinglow.mask, slot.material.skinglow.mask_group = "VERTEX_GROUP", group.name
+    for name in mine:
+        obj.data.attributes.new(name, "FLOAT", "POINT")
+    depsgraph()
+
+    def ours_and_mine():
+        names = [a.name for a in obj.data.attributes]
+        return sorted(n for n in names if n.startswith(ATTRIBUTE_PREFIX)), [n for n in mine if n in names]
+
+    assert ours_and_mine() == ([ATTRIBUTE_PREFIX + name for name in ("Ear.L", "Ear.R")], mine)
+    for group in groups:
+        group.name = f"Renamed {group.name}"
+    obj.data.update()
+    depsgraph()
+    assert ours_and_mine() == ([], mine)
+    for slot, group in zip(obj.material_slots, groups, strict=True):
+        slot.material.skinglow.mask_group = group.name
+    mine.append("mine at last")
+    obj.data.attributes.new(mine[-1], "FLOAT", "POINT")
+    assert len(ours_and_mine()[0]) == 2
+    sb.remove_skin(obj)
+    assert ours_and_mine() == ([], mine)
+
+
+def check_long_names_of_groups(work):
+    """Names of attributes may be shorter than those of groups: 3.4 cut them, 4.5 refused them."""
+    obj = skin_scene()
+    before = picture(work)
+    names = ["耳" * 20 + "L", "耳" * 20 + "R", "x" * 63]
+    for name in names:
+        assert painted(obj, name).name == name
+    painted(obj, names[1], (1.0, 1.0, 1.0, 1.0))
+    material_of(obj).skinglow.mask = "VERTEX_GROUP"
+    for name in names:
+        material_of(obj).skinglow.mask_group = name
+        depsgraph()
+        assert sb.health(obj) == []
+        if name == names[1]:
+            np.testing.assert_allclose(picture(work), before, rtol=1e-5)
+    np.testing.assert_allclose(across(before, work), RAMP, rtol=2e-3)
+    assert len([a for a in obj.data.attributes if a.name.startswith(ATTRIBUTE_PREFIX)]) == 1
 
 
 def check_two_objects_on_one_material(work):
