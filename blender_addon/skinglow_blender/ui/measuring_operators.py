@@ -19,12 +19,15 @@ from ..thickness.tile_attribute import ensure_tiles
 from ..tissue_presets import PRESETS
 from . import slot_choice
 from .light_list import redraw_panels
-from .operators import SKIN, may_act, selected_meshes, selected_skins
+from .operators import SKIN, check_kept, may_act, selected_meshes, selected_skins
+from .status_text import clear_status, show_status
 
 #: Seconds between two checks of the thread.
 INTERVAL = 0.1
 #: Settings that Make Skin Glow offers in Adjust Last Operation.
 CHOICES = ("mode", "weights", "preset", "unit_mm")
+#: Of the measurement that runs.
+_timers: list[bpy.types.Timer] = []
 
 
 class _MeasuringOperator:
@@ -69,13 +72,15 @@ class _MeasuringOperator:
         except (SkinError, ValueError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        self._timer = context.window_manager.event_timer_add(INTERVAL, window=context.window)
+        _timers.append(context.window_manager.event_timer_add(INTERVAL, window=context.window))
         context.window_manager.modal_handler_add(self)
         _show_progress(context)
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         measuring = SESSION.measuring
+        if measuring is None:
+            return {"CANCELLED"}
         if event.type == "ESC" and event.value == "PRESS":
             measuring.canceled = True
             return {"RUNNING_MODAL"}
@@ -86,7 +91,7 @@ class _MeasuringOperator:
         # until they leave it.
         if measuring.running or (context.mode != "OBJECT" and not measuring.canceled):
             return {"PASS_THROUGH"}
-        self._end(context)
+        _end()
         if measuring.canceled:
             self.report({"INFO"}, "Measuring canceled, nothing was changed")
             return {"CANCELLED"}
@@ -97,17 +102,9 @@ class _MeasuringOperator:
             return {"CANCELLED"}
         return self._store(context, measuring.geometries, thicknesses)
 
-    def cancel(self, context: bpy.types.Context) -> None:
+    def cancel(self, _context: bpy.types.Context) -> None:
         """Called by Blender when a file is loaded or the window is closed."""
         stop_measuring()
-        self._end(context)
-
-    def _end(self, context: bpy.types.Context) -> None:
-        SESSION.measuring = None
-        context.window_manager.event_timer_remove(self._timer)
-        if context.workspace is not None:
-            context.workspace.status_text_set(None)
-        redraw_panels()
 
     def _store(self, context: bpy.types.Context, geometries: dict, thicknesses: dict) -> set[str]:
         try:
@@ -147,14 +144,23 @@ def _show_progress(context: bpy.types.Context) -> None:
         text = f"Measuring the thickness of {names}: {measuring.done:.0%}      Esc: cancel"
     else:
         text = f"The thickness of {names} is measured: return to Object Mode to apply it      Esc: cancel"
-    context.workspace.status_text_set(text)
+    show_status(context, text)
     redraw_panels()
 
 
 def stop_measuring() -> None:
-    """Stops a running measurement, as when Blender quits or the add-on is disabled."""
+    """Stops a running measurement, as when Blender quits or the add-on is disabled, which calls no operator."""
     if SESSION.measuring is not None:
         SESSION.measuring.cancel()
+        _end()
+
+
+def _end() -> None:
+    SESSION.measuring = None
+    while _timers:
+        bpy.context.window_manager.event_timer_remove(_timers.pop())
+    clear_status()
+    redraw_panels()
 
 
 def _may_measure(cls: type, context: bpy.types.Context, *, found: bool, what: str = SKIN) -> bool:
@@ -202,6 +208,7 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
 
     def to_measure(self, context: bpy.types.Context) -> dict[str, Geometry]:
         found = {}
+        check_kept(self.targets(context))
         for obj in self.targets(context):
             geometry = read_geometry(obj, context.scene)
             unit = as_typed(self._settings(obj).get("unit_mm", 0.0))
