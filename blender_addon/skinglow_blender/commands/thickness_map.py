@@ -91,6 +91,11 @@ def thickness_from_image(obj: bpy.types.Object, image: bpy.types.Image, white_mm
         raise SkinError(f"'{image.name}' has no pixels: check that its file '{image.filepath}' exists")
     mesh = obj.data
     uv = _uv_of(obj)
+    if image.source == "TILED" and ((uv < 0.0) | (uv > 1.0)).any():
+        raise SkinError(
+            f"'{image.name}' has UDIM tiles, of which only the first is read, and '{obj.name}' has faces in others: "
+            "connect an Image Texture to Thickness of the Skinglow node in its material instead"
+        )
     corners = np.empty(len(mesh.loops), np.int32)
     mesh.loops.foreach_get("vertex_index", corners)
     sampled = core().sample_image(read_pixels(image)[:, :, 0], uv) * white

@@ -5,6 +5,7 @@ EEVEE, and Cycles before 4.5, cannot read vertex groups. So the weights are copi
 """
 
 import hashlib
+import os
 from collections.abc import Collection
 
 import bpy
@@ -40,7 +41,7 @@ def fill_mask(material: bpy.types.Material) -> None:
         kind = None
         if settings.mask == "VERTEX_GROUP" and settings.mask_group:
             kind = "ShaderNodeAttribute"
-        elif settings.mask == "IMAGE" and settings.mask_image is not None:
+        elif settings.mask == "IMAGE" and (settings.mask_image is not None or _image_is_deleted(node)):
             kind = "ShaderNodeTexImage"
         source = _source(node, kind)
         if kind == "ShaderNodeAttribute":
@@ -49,6 +50,32 @@ def fill_mask(material: bpy.types.Material) -> None:
         elif kind == "ShaderNodeTexImage":
             source.image = settings.mask_image
             node.id_data.links.new(source.outputs["Color"], node.inputs["Mask"])
+
+
+def image_fault(material: bpy.types.Material) -> str:
+    """What is wrong with the image by which a material is masked, in words; empty: nothing."""
+    settings = material.skinglow
+    nodes = [node for node in skin_nodes(material) if not masked_by_artist(node)]
+    if settings.mask != "IMAGE" or not nodes:
+        return ""
+    image = settings.mask_image
+    if image is None:
+        if not any(map(_image_is_deleted, nodes)):
+            return ""  # none was chosen yet
+        return f"The image that masks material '{material.name}' was deleted"
+    if image.source != "FILE" or image.packed_file is not None or image.has_data:
+        return ""
+    if os.path.exists(bpy.path.abspath(image.filepath, library=image.library)):
+        return ""
+    return f"The file of '{image.name}' is missing, the image that masks material '{material.name}'"
+
+
+def _image_is_deleted(node: bpy.types.Node) -> bool:
+    """Whether the mask of a skin's node was an image that is no more; its node stays until another is chosen."""
+    links = node.inputs["Mask"].links
+    source = links[0].from_node if links else None
+    is_image = source is not None and source.bl_idname == "ShaderNodeTexImage" and MASK_PROPERTY in source
+    return is_image and source.image is None
 
 
 def masked_by_artist(node: bpy.types.Node) -> bool:

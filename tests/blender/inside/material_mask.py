@@ -5,6 +5,7 @@ import numpy as np
 import skinglow_blender as sb
 from skinglow_blender.show.mask import ATTRIBUTE_PREFIX, MASK_PROPERTY
 
+from inside.bad_input import refused
 from inside.material_sockets import connect, node_of, picture, skin_scene
 from inside.scenes import black_material, depsgraph, patch
 
@@ -183,6 +184,34 @@ def check_image(work):
     settings.mask_image = bpy.data.images.new("Black", 4, 4)
     assert node_of(obj).inputs["Mask"].links[0].from_node == node and node.interpolation == "Closest"
     assert picture(work).max() == 0.0
+
+
+def check_an_image_that_is_gone(work):
+    """Its file or itself: told, and Repair does not take the mask away; another image ends it."""
+    obj = skin_scene()
+    before = picture(work)
+    obj.data.uv_layers.new(name="UVMap")
+    bpy.context.view_layer.objects.active = obj
+    obj.select_set(True)
+    settings = material_of(obj).skinglow
+    settings.mask, settings.mask_image = "IMAGE", bpy.data.images.new("Mask", 4, 4)
+    assert sb.health(obj) == []
+    bpy.data.images.remove(settings.mask_image)
+    for _press in range(2):
+        assert "image that masks material 'Black' was deleted" in str(sb.health(obj)[0])
+        refused(RuntimeError, "choose another image", bpy.ops.skinglow.repair)
+    lost = bpy.data.images.new("Lost", 4, 4)
+    lost.source, lost.filepath = "FILE", str(work / "lost.png")
+    settings.mask_image = lost
+    depsgraph()
+    assert "file of 'Lost' is missing" in str(sb.health(obj)[0])
+    settings.mask_image = bpy.data.images.new("Found", 4, 4)
+    depsgraph()
+    assert sb.health(obj) == []
+    # Emptied by hand, as before one was chosen.
+    settings.mask_image = None
+    assert sb.health(obj) == []
+    np.testing.assert_array_equal(picture(work), before)
 
 
 def check_what_the_artist_connected_stays(work):

@@ -155,5 +155,10 @@ def check_refused(work):
     image.colorspace_settings.name = "sRGB"
     refused(sb.SkinError, "set its Color Space to Non-Color", sb.thickness_from_image, obj, image)
     image.colorspace_settings.name = "Non-Color"
+    tiled = bpy.data.images.new("Tiled", 8, 8, tiled=True)
+    tiled.colorspace_settings.name = "Non-Color"
+    refused(
+        sb.SkinError, "'Tiled' has UDIM tiles, of which only the first is read", sb.thickness_from_image, obj, tiled
+    )
     sb.thickness_from_image(obj, image, white_mm=5.0)
     assert not list((work / "refused").glob("*thickness*"))
