@@ -111,6 +111,7 @@ class SKINGLOW_OT_freeze(bpy.types.Operator):  # noqa: N801  Blender's naming
         scene = context.scene
         first = self.first if self.properties.is_property_set("first") else scene.frame_start
         last = self.last if self.properties.is_property_set("last") else scene.frame_end
+        self.first, self.last = first, last  # as Adjust Last Operation shows them
         skins = [obj for obj in selected_skins(context) if not frozen_state(obj)]
         return Freezing(skins, first, last, self.directory, scene)
 

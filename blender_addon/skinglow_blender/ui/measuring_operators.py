@@ -2,6 +2,7 @@
 """The operators that measure thickness: in the background of a window, synchronously from scripts."""
 
 import bpy
+import numpy as np
 from bpy.props import CollectionProperty, EnumProperty, FloatProperty
 
 from ..commands import skin
@@ -26,6 +27,8 @@ from .status_text import clear_status, show_status
 INTERVAL = 0.1
 #: Settings that Make Skin Glow offers in Adjust Last Operation.
 CHOICES = ("mode", "weights", "preset", "unit_mm")
+#: What was measured last, by the digest of its geometry.
+_last_measured: dict[str, tuple[np.ndarray, np.ndarray]] = {}
 #: Of the measurement that runs.
 _timers: list[bpy.types.Timer] = []
 
@@ -54,7 +57,7 @@ class _MeasuringOperator:
         try:
             self._names = {key_of(obj): obj.name for obj in self.targets(context)}
             geometries = self.to_measure(context)
-            thicknesses = {key: thickness_attribute.measure(geometry) for key, geometry in geometries.items()}
+            thicknesses = {key: _measured(geometry) for key, geometry in geometries.items()}
         except (SkinError, ValueError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -110,6 +113,7 @@ class _MeasuringOperator:
         try:
             objects = _objects(self._names)
             self.before_storing(context, list(objects.values()))
+            _remember(geometries, thicknesses)
             for key, values in thicknesses.items():
                 thickness_attribute.store_measured(objects[key], context.scene, geometries[key], *values)
             self.report({"INFO"}, self.finish(context, list(objects.values())))
@@ -124,6 +128,18 @@ class _MeasuringOperator:
             self.report({"ERROR"}, str(error))
         # Also after an error: some meshes may have changed, and Undo reverts that.
         return {"FINISHED"}
+
+
+def _measured(geometry: Geometry) -> tuple[np.ndarray, np.ndarray]:
+    """What `measure` returns; Adjust Last Operation undoes a measurement and asks for it again at each change."""
+    found = _last_measured.get(geometry.digest())
+    return found if found is not None else thickness_attribute.measure(geometry)
+
+
+def _remember(geometries: dict[str, Geometry], thicknesses: dict[str, tuple[np.ndarray, np.ndarray]]) -> None:
+    if thicknesses:
+        _last_measured.clear()
+        _last_measured.update({geometries[key].digest(): values for key, values in thicknesses.items()})
 
 
 def _objects(names: dict[str, str]) -> dict[str, bpy.types.Object]:
@@ -225,6 +241,7 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
     def finish(self, _context: bpy.types.Context, objects: list[bpy.types.Object]) -> str:
         states = [self._make(obj) for obj in objects]
         slot_choice.offer(self.slots, objects)
+        self._show_choices(objects)
         return "; ".join(f"{s.name}: {s.thickness_mm[0]:.2f} to {s.thickness_mm[1]:.2f} mm thick" for s in states)
 
     def _make(self, obj: bpy.types.Object) -> skin.SkinState:
@@ -235,6 +252,13 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
         if "weights" in settings and not is_asked and state.shape is not None and state.shape.reason is not None:
             state = skin.make_skin(obj, weights="OBJECT")
         return state
+
+    def _show_choices(self, objects: list[bpy.types.Object]) -> None:
+        """Has Adjust Last Operation show what the skins have in common, as by the preferences, rather than defaults."""
+        for name in CHOICES:
+            values = {getattr(obj.skinglow, name) for obj in objects}
+            if len(values) == 1 and values != {"CUSTOM"}:
+                setattr(self, name, values.pop())
 
     def _settings(self, obj: bpy.types.Object) -> dict[str, object]:
         """What was chosen in Adjust Last Operation; for a new skin, what the preferences say of the rest."""
@@ -299,5 +323,6 @@ def register() -> None:
 def unregister() -> None:
     """Removes the operators, also when Blender quits: no thread may run Python then."""
     stop_measuring()
+    _last_measured.clear()
     for each in reversed(CLASSES):
         bpy.utils.unregister_class(each)
