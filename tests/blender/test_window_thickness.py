@@ -40,7 +40,7 @@ def test_colors_are_an_overlay_of_what_a_view_shows(window: Window) -> None:
 def test_measuring_leaves_no_word_behind(window: Window) -> None:
     """In the workspace that it was begun in; and the buttons work after the add-on was off meanwhile."""
     assert window["workspaces"] == [2, None] and window["after measuring"] == [None, None]
-    assert window["turned off"] == [True, True, None, None]
+    assert window["turned off"] == [True, True, None, None] and window["window closed"]
 
 
 def test_colors_follow_the_shape(window: Window) -> None:

@@ -27,6 +27,11 @@ def clear_status() -> None:
 def _clear(name: str) -> None:
     _shown_in.discard(name)
     workspace = bpy.data.workspaces.get(name)
-    if workspace is not None:
-        with bpy.context.temp_override(workspace=workspace):
-            workspace.status_text_set(None)
+    if workspace is None:
+        return
+    if workspace == bpy.context.workspace:
+        # Without an override, whose end crashes Blender while a window is closed.
+        workspace.status_text_set(None)
+        return
+    with bpy.context.temp_override(workspace=workspace):
+        workspace.status_text_set(None)

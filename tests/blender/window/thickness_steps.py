@@ -117,6 +117,17 @@ def measuring_elsewhere(head):
     sb.register()
     with in_view():
         tell("turned off", [SESSION.measuring is None, bpy.ops.skinglow.make.poll(), *said.values()])
+        bpy.ops.wm.window_new()
+    yield 0.5
+    second = bpy.context.window_manager.windows[1]
+    area = second.screen.areas[0]
+    with bpy.context.temp_override(window=second, area=area, region=area.regions[0]):
+        bpy.ops.skinglow.measure_thickness("INVOKE_DEFAULT")
+    yield 0.5
+    assert SESSION.measuring is not None
+    with bpy.context.temp_override(window=second):
+        bpy.ops.wm.window_close()
+    tell("window closed", SESSION.measuring is None)
 
 
 def begin_measuring():
