@@ -3,11 +3,12 @@
 import bpy
 import numpy as np
 import skinglow_blender as sb
+from skinglow_blender.show import mask
 from skinglow_blender.show.mask import ATTRIBUTE_PREFIX, MASK_PROPERTY
 
 from inside.bad_input import refused
 from inside.material_sockets import connect, node_of, picture, skin_scene
-from inside.scenes import black_material, depsgraph, patch
+from inside.scenes import black_material, depsgraph, link, patch
 
 
 def painted(obj, name="Ears", weights=(0.0, 1.0, 1.0, 0.0)):
@@ -134,6 +135,32 @@ def check_long_names_of_groups(work):
     assert len([a for a in obj.data.attributes if a.name.startswith(ATTRIBUTE_PREFIX)]) == 1
 
 
+def check_a_pose_reads_no_weights(_work):
+    """That took 0.6 s for a mesh of 100,000 vertices; what is painted is read, whatever the pose."""
+    obj = skin_scene()
+    group = painted(obj)
+    material_of(obj).skinglow.mask, material_of(obj).skinglow.mask_group = "VERTEX_GROUP", group.name
+    rig = link(bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig")))
+    bpy.context.view_layer.objects.active = rig
+    bpy.ops.object.mode_set(mode="EDIT")
+    rig.data.edit_bones.new("Bone").tail = (0.0, 0.0, 1.0)
+    bpy.ops.object.mode_set(mode="POSE")
+    obj.modifiers.new("Posed", "ARMATURE").object = rig
+    depsgraph()
+    calls, read = [], mask._weights
+    mask._weights = lambda *each: calls.append(each) or read(*each)
+    try:
+        rig.pose.bones["Bone"].location.x += 0.1
+        depsgraph()
+        assert not calls
+        painted(obj, weights=(1.0, 0.0, 0.0, 1.0))
+        assert calls
+    finally:
+        mask._weights = read
+    values = [each.value for each in obj.data.attributes[ATTRIBUTE_PREFIX + group.name].data]
+    assert values == [1.0, 0.0, 0.0, 1.0]
+
+
 def check_two_objects_on_one_material(work):
     """Each by its own weights."""
     obj = skin_scene()
@@ -220,8 +247,8 @@ def check_what_the_artist_connected_stays(work):
     painted(obj)
     source = connect(node_of(obj), "Mask", 0.5)
     settings = material_of(obj).skinglow
-    for mask in ("VERTEX_GROUP", "IMAGE", "NONE"):
-        settings.mask, settings.mask_group = mask, "Ears"
+    for kind in ("VERTEX_GROUP", "IMAGE", "NONE"):
+        settings.mask, settings.mask_group = kind, "Ears"
         assert node_of(obj).inputs["Mask"].links[0].from_node == source
         np.testing.assert_allclose(picture(work), 0.5 * before, rtol=1e-5)
 
