@@ -72,6 +72,8 @@ class Session:
         self.has_none: bool | None = None
         #: Whether a skin may have become one whose mesh lacks tiles since all were looked at.
         self.may_lack_tiles = True
+        #: Skins whose weights were painted since their masks were stored; None: maybe all, as after an undo.
+        self.painted: set[str] | None = None
         #: Material to the skin node groups it had when it was last reported to have changed.
         self.material_groups: dict[str, frozenset[str]] = {}
         #: Keys of the objects that skins take their reference point from.

@@ -30,6 +30,19 @@ def test_colors_cover_the_skin_while_they_are_on(window: Window) -> None:
     assert (changed & orange).sum() > 2000
 
 
+def test_colors_are_an_overlay_of_what_a_view_shows(window: Window) -> None:
+    """Turned off with all overlays, as for a picture of the view, and not over what a local view leaves out."""
+    for name in ("no_overlays", "local_view"):
+        picture = view(window.pictures[name])
+        assert np.ptp(picture, axis=2).mean() < 0.02, name
+
+
+def test_measuring_leaves_no_word_behind(window: Window) -> None:
+    """In the workspace that it was begun in; and the buttons work after the add-on was off meanwhile."""
+    assert window["workspaces"] == [2, None] and window["after measuring"] == [None, None]
+    assert window["turned off"] == [True, True, None, None] and window["window closed"]
+
+
 def test_colors_follow_the_shape(window: Window) -> None:
     pictures = window.pictures
     assert np.abs(view(pictures["reshaped"]) - view(pictures["heat_map"])).mean() > 0.02

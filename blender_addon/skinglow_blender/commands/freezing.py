@@ -65,7 +65,9 @@ class Freezing:
         self.scene, self.first, self.last = scene, first, last
         self.before = scene.frame_current, scene.frame_subframe
         parent = Path(bpy.path.abspath(folder)).absolute()
-        self.parts = [FrozenPart(each, parent) for each in groups]
+        self.parts: list[FrozenPart] = []
+        for each in groups:
+            self.parts.append(FrozenPart(each, parent, [part.folder.name for part in self.parts]))
         self.frame = first
         self._restarts = 0
         try:

@@ -5,6 +5,7 @@ import os
 import platform
 import shutil
 import time
+from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
@@ -37,7 +38,8 @@ NOT_ALWAYS_TILES = (
 class FrozenPart:
     """Skins that share materials, and so a folder."""
 
-    def __init__(self, skins: list[bpy.types.Object], parent: Path) -> None:
+    def __init__(self, skins: list[bpy.types.Object], parent: Path, taken: Iterable[str] = ()) -> None:
+        """taken: names of the folders of other parts, which are not there yet."""
         self.skins = skins
         self.group = skins[0].skinglow.group
         self.nodes = GroupNodes()
@@ -45,7 +47,7 @@ class FrozenPart:
         self.tiles: dict[int, TileRange] = {}  #: by row
         self.rows = 1 + max(obj.skinglow.row for obj in skins)
         self.marks: dict[int, str] = {}
-        self.folder = free_folder(parent, bpy.path.clean_name(skins[0].name))
+        self.folder = free_folder(parent, bpy.path.clean_name(skins[0].name), taken)
         self.partial = parent / f".{self.folder.name}.{platform.node()}-{os.getpid()}.part"
 
     def take(self, shown: dict[str, Shown]) -> bool:
@@ -153,12 +155,15 @@ def _check(obj: bpy.types.Object) -> None:
             raise SkinError(f"'{obj.name}' belongs to {owner.library.filepath}: freeze it there, or make it local")
 
 
-def free_folder(parent: Path, name: str) -> Path:
-    """Folders are never written over: a farm may be reading them."""
-    number = 1
+def free_folder(parent: Path, name: str, taken: Iterable[str] = ()) -> Path:
+    """Folders are never written over: a farm may be reading them.
+
+    taken  names of folders that are not there yet. Objects of several names may have one that files can have.
+    """
+    number, taken = 1, {each.casefold() for each in taken}
     while True:
         found = parent / (name if number == 1 else f"{name}_{number}")
-        if not found.exists():
+        if not found.exists() and found.name.casefold() not in taken:
             return found
         number += 1
 

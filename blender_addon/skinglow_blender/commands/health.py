@@ -22,7 +22,7 @@ from ..show.tile_image import TILES
 from ..thickness import thickness_attribute
 from ..thickness.thickness_attribute import KNOWN_ATTRIBUTE, THICKNESS_ATTRIBUTE
 from .freezing import unfreeze
-from .material_health import REPAIR, Fault, layer_faults, material_faults, measured_slots
+from .material_health import CHOOSE_MASK, REPAIR, UNMUTE, Fault, layer_faults, material_faults, measured_slots
 from .rendered_objects import RenderedObjects
 from .skin import remake_skin, skin_settings_of
 
@@ -36,7 +36,7 @@ OWN_MESH = (
 FREEZE_AGAIN = "unfreeze it, or then freeze it again"
 FREEZE_MORE = "unfreeze it, or then freeze more frames"
 #: What no button does.
-BY_HAND = frozenset({CHOOSE_REFERENCE, INCLUDE_REFERENCE, OWN_MESH})
+BY_HAND = frozenset({CHOOSE_MASK, CHOOSE_REFERENCE, INCLUDE_REFERENCE, OWN_MESH, UNMUTE})
 
 
 def health(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None = None) -> list[Fault]:

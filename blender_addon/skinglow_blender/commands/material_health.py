@@ -5,11 +5,13 @@ from typing import NamedTuple
 
 import bpy
 
-from ..show.mask import mask_groups
-from ..show.skin_material import chosen_materials, gives_thickness, skin_node
-from ..show.subsurface import light_shown_by
+from ..show.mask import image_fault, mask_groups
+from ..show.skin_material import chosen_materials, gives_thickness, is_shown, skin_node, skin_nodes
+from ..show.subsurface import has_subsurface, light_shown_by
 
 REPAIR = "press Repair, or call make_skin"
+UNMUTE = "select it in the Shader Editor and press M"
+CHOOSE_MASK = "choose another image under Material > Mask, or File > External Data > Find Missing Files"
 CHOOSE_SHOWN_BY = "choose who shows it under Material > Light Shown By"
 
 
@@ -41,11 +43,29 @@ def material_faults(obj: bpy.types.Object) -> list[Fault]:
     ]
     faults += [
         Fault(
+            f"The Skinglow node of material '{material.name}' is not connected to its output, so its faces do not glow",
+            "press Repair, or leave its slot out of the skin",
+        )
+        for material in with_node
+        if not is_shown(material)
+    ]
+    faults += [
+        Fault(
+            f"The Skinglow node of material '{material.name}' is muted, so its faces do not glow",
+            UNMUTE,
+            is_hint=True,
+        )
+        for material in with_node
+        if all(node.mute for node in skin_nodes(material)) and not has_subsurface(material)
+    ]
+    faults += [
+        Fault(
             f"It has no vertex group '{name}', by which a material is masked, so that does not glow",
             "add the group, or change the Mask of the material",
         )
         for name in sorted(mask_groups(obj) - set(obj.vertex_groups.keys()))
     ]
+    faults += [Fault(what, CHOOSE_MASK) for what in map(image_fault, with_node) if what]
     faults += [
         Fault(
             f"Material '{material.name}' scatters light below its surface, which comes through it a second time",

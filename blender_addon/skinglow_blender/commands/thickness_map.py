@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import blender_version
 from ..errors import SkinError, core
+from ..read.file_skins import skins_of_file
 from ..read.measured_geometry import check_mesh, unit_mm
 from ..read.measured_size import scale_since_measured
 from ..read.mesh_reading import triangles_of
@@ -91,6 +92,11 @@ def thickness_from_image(obj: bpy.types.Object, image: bpy.types.Image, white_mm
         raise SkinError(f"'{image.name}' has no pixels: check that its file '{image.filepath}' exists")
     mesh = obj.data
     uv = _uv_of(obj)
+    if image.source == "TILED" and ((uv < 0.0) | (uv > 1.0)).any():
+        raise SkinError(
+            f"'{image.name}' has UDIM tiles, of which only the first is read, and '{obj.name}' has faces in others: "
+            "connect an Image Texture to Thickness of the Skinglow node in its material instead"
+        )
     corners = np.empty(len(mesh.loops), np.int32)
     mesh.loops.foreach_get("vertex_index", corners)
     sampled = core().sample_image(read_pixels(image)[:, :, 0], uv) * white
@@ -104,11 +110,19 @@ def thickness_from_image(obj: bpy.types.Object, image: bpy.types.Image, white_mm
 
 
 def _path_of(obj: bpy.types.Object, file: str | os.PathLike | None, extension: str) -> Path:
-    text = str(file) if file is not None else f"//{bpy.path.clean_name(obj.name)}_thickness{extension}"
+    text = str(file) if file is not None else f"//{_file_name(obj)}_thickness{extension}"
     if text.startswith("//") and not bpy.data.filepath:
         raise SkinError("Save the file first, or give the image's file: it is written next to the blend file")
     path = Path(bpy.path.abspath(text)).absolute()
     return path if path.suffix.lower() == extension else path.with_name(path.name + extension)
+
+
+def _file_name(obj: bpy.types.Object) -> str:
+    """The object's name as files can have it, with a number where that is the same for others: 'Ear L' and 'Ear_L'."""
+    name = bpy.path.clean_name(obj.name)
+    alike = {o.name for o in skins_of_file() if bpy.path.clean_name(o.name).casefold() == name.casefold()}
+    number = sorted(alike).index(obj.name) + 1
+    return name if number == 1 else f"{name}_{number}"
 
 
 def _uv_of(obj: bpy.types.Object) -> np.ndarray:

@@ -71,7 +71,7 @@ def on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
         update_windows_soon()
         return
     moved = changes.materials and follow_materials()
-    follow_weights(changes.reshaped)
+    follow_weights(obj for obj in changes.reshaped if key_of(obj.data) in changes.meshes)
     known_images = [key for key in changes.images if world_image.is_known(key)]
     for key in known_images:
         world_image.forget(key)
@@ -165,15 +165,19 @@ def on_import(_context: Any, _unused: None) -> None:  # noqa: ANN401
 
 
 def follow_weights(skins: Iterable[bpy.types.Object]) -> None:
-    """Stores the masks of skins by their vertex groups; while they are painted in a window, a moment later."""
-    if SESSION.rendering:
-        return
+    """Stores the masks of skins by their vertex groups; while they are painted in a window, a moment later.
+
+    Reading the weights takes 6 us a vertex, so that no pose may ask for it.
+    """
     for obj in skins:
-        if mask_groups(obj):
-            if bpy.app.background:
-                store_masks(obj)
-            else:
-                update_windows_soon()
+        if not mask_groups(obj):
+            continue
+        if bpy.app.background and not SESSION.rendering:
+            store_masks(obj)
+        else:
+            if SESSION.painted is not None:
+                SESSION.painted.add(key_of(obj))
+            update_windows_soon()
 
 
 @guarded

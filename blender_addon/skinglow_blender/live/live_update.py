@@ -15,7 +15,7 @@ from ..read.scene_reading import ROW_PROPERTY, SceneReading, Skin, lit_per_pixel
 from ..session import SESSION
 from ..show.frozen import is_frozen
 from ..show.group_nodes import nodes_of
-from ..show.lut_image import Atlas, images_of
+from ..show.lut_image import Atlas, group_layout, images_of
 from ..show.tile_image import place_tiles
 from ..table.light_room import NO_ROOM
 from ..table.lut_layout import plain_row, surface_row
@@ -154,7 +154,10 @@ def _update_group(
 ) -> list[Rebuilt]:
     mode = depsgraph.mode
     row_of = _separate_rows(group, members)
-    images = make_room(group, max(skin.base[1] for _obj, skin in members), 1 + max(row_of.values()))
+    # A redo brings back nodes and layout, and images of the size that they were made with.
+    layout = group_layout(group)
+    width = max([skin.base[1] for _obj, skin in members] + ([layout.width] if layout is not None else []))
+    images = make_room(group, width, 1 + max(row_of.values()))
     atlas = _atlas(group, mode, images)
     before = {key: (signature, atlas.rows.get(key)) for key, signature in atlas.signatures.items()}
     other = SESSION.atlases.get((key_of(group), "RENDER" if mode == "VIEWPORT" else "VIEWPORT"))

@@ -17,7 +17,8 @@ IRRELEVANT = frozenset(
     "WindowManager".split()
 )
 #: Looked up once: `bpy.types` searches all types by name.
-Image, Material, Object, Scene = bpy.types.Image, bpy.types.Material, bpy.types.Object, bpy.types.Scene
+Image, Material, Mesh = bpy.types.Image, bpy.types.Material, bpy.types.Mesh
+Object, Scene = bpy.types.Object, bpy.types.Scene
 #: Types whose changes neither add lights or skins to a scene nor remove them.
 ADDS_NOTHING = frozenset("AreaLight PointLight ShaderNodeTree SpotLight SunLight World".split())
 
@@ -30,6 +31,7 @@ class Changes(NamedTuple):
     materials: bool  #: a skin may have got another material
     images: frozenset[str]  #: lasting_key_of the images that changed
     reshaped: tuple[bpy.types.Object, ...]  #: the skins whose mesh, or what is painted on it, changed
+    meshes: frozenset[str]  #: key_of the meshes that changed themselves; a pose changes none
 
 
 def changes_of(depsgraph: bpy.types.Depsgraph, known: Known | None, is_frame: bool = False) -> Changes:
@@ -56,7 +58,8 @@ def changes_of(depsgraph: bpy.types.Depsgraph, known: Known | None, is_frame: bo
     else:
         # Selecting something changes the scene, too.
         objects = found.objects or is_empty or (scene_changed and not known.still_holds(depsgraph))
-    return Changes(found.skins or objects, objects, found.materials, frozenset(found.images), tuple(found.reshaped))
+    images, meshes = frozenset(found.images), frozenset(found.meshes)
+    return Changes(found.skins or objects, objects, found.materials, images, tuple(found.reshaped), meshes)
 
 
 class _Changes:
@@ -66,6 +69,7 @@ class _Changes:
         self.known = known
         self.skins = self.objects = self.materials = False
         self.images: set[str] = set()
+        self.meshes: set[str] = set()
         self.reshaped: list[bpy.types.Object] = []
 
     def take_object(self, update: bpy.types.DepsgraphUpdate, changed: bpy.types.Object) -> None:
@@ -99,6 +103,8 @@ class _Changes:
             self.materials = self.materials or changes_groups(changed.original)
         elif isinstance(changed, Image):
             self.images.add(lasting_key_of(changed))
+        elif isinstance(changed, Mesh):
+            self.meshes.add(key_of(changed))
         # The nodes of a light, a world or a material are reported with it.
         elif type(changed).__name__ not in IRRELEVANT and not changed.is_embedded_data:
             self.skins = True

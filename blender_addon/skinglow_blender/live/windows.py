@@ -7,6 +7,7 @@ update of one would undo that of the other, without end.
 
 import bpy
 
+from ..identity import key_of
 from ..read.file_skins import skins_of_file
 from ..read.known_objects import Known
 from ..session import SESSION
@@ -97,8 +98,9 @@ def update_windows() -> float | None:
         return DELAY
     with faults_shown():
         skins = skins_of_file()
+        painted, SESSION.painted = SESSION.painted, set()
         for obj in skins:
-            if mask_groups(obj):
+            if mask_groups(obj) and (painted is None or key_of(obj) in painted):
                 store_masks(obj)
         depsgraphs = [layer.depsgraph for layer in shown_layers() if layer.depsgraph is not None]
         if store_missing_tiles(skins):

@@ -7,6 +7,7 @@ count.
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 from ..errors import core
 
@@ -40,14 +41,21 @@ def samples_of(mesh: bpy.types.Mesh) -> list[float]:
 def scale_since_measured(mesh: bpy.types.Mesh, world_size: float) -> float:
     """Factor by which a mesh, of an object of that size, has become larger, and so thicker, since it was measured."""
     measured = mesh.get(MEASURED_SIZE, world_size)
-    return _growth(mesh) * world_size / measured if measured > 0.0 else 1.0
+    if measured <= 0.0:
+        return 1.0
+    return _growth(mesh, is_resized=world_size != measured) * world_size / measured
 
 
-def _growth(mesh: bpy.types.Mesh) -> float:
-    """Factor by which the mesh itself was scaled; 1 where it was changed in another way. Asked for at each edit."""
+def _growth(mesh: bpy.types.Mesh, *, is_resized: bool) -> float:
+    """Factor by which the mesh itself was scaled; 1 where it was changed in another way. Asked for at each edit.
+
+    is_resized  whether its object has another size, so that an uneven scale may have been applied, along one axis
+    """
     stored = mesh.get(MEASURED_SAMPLES)
     if stored is None:
         return 1.0
+    if is_resized:
+        return mesh_scale(mesh) or 1.0
     samples, vertices = stored[:], mesh.vertices
     first, last = tuple(samples[2:5]), tuple(samples[-3:])
     if samples[0] == len(vertices) and first != last:
@@ -64,19 +72,41 @@ def is_reshaped(mesh: bpy.types.Mesh) -> bool:
 
 
 def mesh_scale(mesh: bpy.types.Mesh) -> float | None:
-    """Factor by which the mesh itself was scaled, judged by its samples; None if it was changed in another way."""
-    stored = mesh.get(MEASURED_SAMPLES)
-    if stored is None:
-        return None
-    samples, vertices = stored[:], mesh.vertices
-    if samples[0] != len(vertices):
-        return None
-    then = list(zip(samples[2::4], samples[3::4], samples[4::4], strict=True))
-    now = [vertices[int(i)].co[:] for i in samples[1::4]]
+    """Factor by which the mesh itself was scaled, judged by its samples; None if it was changed in another way.
+
+    Where the object's uneven scale was applied: the mean factor, as the mesh now is what its object was.
+    """
+    then, now = _samples_then_and_now(mesh)
     # Mostly nothing was changed.
-    if now == then:
-        return 1.0
-    return core().uniform_scale(then, now)
+    if then is None or now == then:
+        return None if then is None else 1.0
+    scale = core().uniform_scale(then, now)
+    stored, size = mesh.get(MEASURED_MATRIX), mesh.get(MEASURED_SIZE, 0.0)
+    if scale is not None or stored is None or Matrix(np.reshape(stored, (3, 3))).determinant() < 0.0:
+        return scale
+    scale = core().uniform_scale(np.array(then) @ np.reshape(stored, (3, 3)).T, now)
+    return scale * size if scale is not None else None
+
+
+def is_moved_as_a_whole(mesh: bpy.types.Mesh) -> bool:
+    """Whether a mesh was moved, turned or scaled, but not only mirrored, and is the measured one but for that."""
+    then, now = _samples_then_and_now(mesh)
+    scale = mesh_scale(mesh)
+    if then is None or now == then or scale is None:
+        return False
+    middle = np.mean(then, axis=0), np.mean(now, axis=0)
+    linear = np.linalg.lstsq(np.array(then) - middle[0], np.array(now) - middle[1], rcond=None)[0]
+    return bool(scale != 1.0 or np.linalg.det(linear) >= 0.0)
+
+
+def _samples_then_and_now(mesh: bpy.types.Mesh) -> tuple[list | None, list]:
+    """Positions of the samples; None and nothing if none were stored, or there are other vertices now."""
+    stored = mesh.get(MEASURED_SAMPLES)
+    if stored is None or stored[0] != len(mesh.vertices):
+        return None, []
+    samples = stored[:]
+    then = list(zip(samples[2::4], samples[3::4], samples[4::4], strict=True))
+    return then, [mesh.vertices[int(i)].co[:] for i in samples[1::4]]
 
 
 def is_stretched(obj: bpy.types.Object) -> bool:

@@ -4,6 +4,10 @@
 EEVEE, and Cycles before 4.5, cannot read vertex groups. So the weights are copied to an attribute of the mesh.
 """
 
+import hashlib
+import os
+from collections.abc import Collection
+
 import bpy
 import numpy as np
 
@@ -14,6 +18,16 @@ from .skin_material import skin_input, skin_nodes
 MASK_PROPERTY = "skinglow_mask"
 #: The attribute that holds a vertex group's weights is called so, followed by the group's name.
 ATTRIBUTE_PREFIX = "skinglow_mask_"
+#: Bytes of a name of an attribute that every Blender keeps; some cut longer ones, others refuse them.
+LONGEST_NAME = 63
+
+
+def attribute_of(group: str) -> str:
+    """The name of the attribute that holds a vertex group's weights: a digest of names that Blender would cut."""
+    name = ATTRIBUTE_PREFIX + group
+    if len(name.encode()) <= LONGEST_NAME:
+        return name
+    return ATTRIBUTE_PREFIX + hashlib.sha256(group.encode()).hexdigest()[:32]
 
 
 def fill_mask(material: bpy.types.Material) -> None:
@@ -27,15 +41,41 @@ def fill_mask(material: bpy.types.Material) -> None:
         kind = None
         if settings.mask == "VERTEX_GROUP" and settings.mask_group:
             kind = "ShaderNodeAttribute"
-        elif settings.mask == "IMAGE" and settings.mask_image is not None:
+        elif settings.mask == "IMAGE" and (settings.mask_image is not None or _image_is_deleted(node)):
             kind = "ShaderNodeTexImage"
         source = _source(node, kind)
         if kind == "ShaderNodeAttribute":
-            source.attribute_type, source.attribute_name = "GEOMETRY", ATTRIBUTE_PREFIX + settings.mask_group
+            source.attribute_type, source.attribute_name = "GEOMETRY", attribute_of(settings.mask_group)
             node.id_data.links.new(source.outputs["Fac"], node.inputs["Mask"])
         elif kind == "ShaderNodeTexImage":
             source.image = settings.mask_image
             node.id_data.links.new(source.outputs["Color"], node.inputs["Mask"])
+
+
+def image_fault(material: bpy.types.Material) -> str:
+    """What is wrong with the image by which a material is masked, in words; empty: nothing."""
+    settings = material.skinglow
+    nodes = [node for node in skin_nodes(material) if not masked_by_artist(node)]
+    if settings.mask != "IMAGE" or not nodes:
+        return ""
+    image = settings.mask_image
+    if image is None:
+        if not any(map(_image_is_deleted, nodes)):
+            return ""  # none was chosen yet
+        return f"The image that masks material '{material.name}' was deleted"
+    if image.source != "FILE" or image.packed_file is not None or image.has_data:
+        return ""
+    if os.path.exists(bpy.path.abspath(image.filepath, library=image.library)):
+        return ""
+    return f"The file of '{image.name}' is missing, the image that masks material '{material.name}'"
+
+
+def _image_is_deleted(node: bpy.types.Node) -> bool:
+    """Whether the mask of a skin's node was an image that is no more; its node stays until another is chosen."""
+    links = node.inputs["Mask"].links
+    source = links[0].from_node if links else None
+    is_image = source is not None and source.bl_idname == "ShaderNodeTexImage" and MASK_PROPERTY in source
+    return is_image and source.image is None
 
 
 def masked_by_artist(node: bpy.types.Node) -> bool:
@@ -82,14 +122,13 @@ def store_masks(obj: bpy.types.Object) -> None:
         return
     # Other objects may show the mesh with other materials.
     names = {name for o in bpy.data.objects if o.data == mesh and o.skinglow.enabled for name in mask_groups(o)}
-    for attribute in [a for a in mesh.attributes if a.name.startswith(ATTRIBUTE_PREFIX)]:
-        if attribute.name.removeprefix(ATTRIBUTE_PREFIX) not in names & set(obj.vertex_groups.keys()):
-            mesh.attributes.remove(attribute)
-    for name in names & set(obj.vertex_groups.keys()):
-        weights = _weights(mesh, obj.vertex_groups[name].index)
-        attribute = mesh.attributes.get(ATTRIBUTE_PREFIX + name)
+    wanted = {attribute_of(name): obj.vertex_groups[name].index for name in names & set(obj.vertex_groups.keys())}
+    _remove_but(mesh, wanted.keys())
+    for name, index in wanted.items():
+        weights = _weights(mesh, index)
+        attribute = mesh.attributes.get(name)
         if attribute is None:
-            attribute = mesh.attributes.new(ATTRIBUTE_PREFIX + name, "FLOAT", "POINT")
+            attribute = mesh.attributes.new(name, "FLOAT", "POINT")
         stored = np.empty_like(weights)
         attribute.data.foreach_get("value", stored)
         if not np.array_equal(stored, weights):
@@ -108,5 +147,11 @@ def _weights(mesh: bpy.types.Mesh, index: int) -> np.ndarray:
 
 def remove_masks(mesh: bpy.types.Mesh) -> None:
     """Removes the attributes that `store_masks` added."""
-    for attribute in [a for a in mesh.attributes if a.name.startswith(ATTRIBUTE_PREFIX)]:
-        mesh.attributes.remove(attribute)
+    _remove_but(mesh, ())
+
+
+def _remove_but(mesh: bpy.types.Mesh, kept: Collection[str]) -> None:
+    """Removes them by name, one at a time: until 4.5 what refers to one refers to the next after a removal."""
+    for name in [a.name for a in mesh.attributes if a.name.startswith(ATTRIBUTE_PREFIX)]:
+        if name not in kept:
+            mesh.attributes.remove(mesh.attributes[name])

@@ -17,6 +17,8 @@ from .surface_shaders import emits
 
 #: Custom property of the node in a material: the material's original emission sampling.
 SAMPLING_PROPERTY = "skinglow_sampling"
+#: How far an output moves to the right for the node before it.
+WIDTH = 200.0
 #: A light skin, linear Rec.709, for objects without a material: the light skin patch of the ColorChecker chart
 #: (sRGB 194, 150, 130; X-Rite's published values).
 PLAIN_SKIN_COLOR = (0.5395, 0.3050, 0.2232)
@@ -86,6 +88,8 @@ def add_to_materials(obj: bpy.types.Object, group: bpy.types.NodeTree | None) ->
             insert(material, group)
         elif node.node_tree != group and node.id_data.library is None:
             replace_group(node, group)
+        if library_of(material) is None and not is_shown(material):
+            _connect_again(material)
         _stop_sampling(material)
     return group
 
@@ -137,6 +141,43 @@ def skin_node(material: bpy.types.Material) -> bpy.types.Node | None:
     return next(iter(skin_nodes(material)), None)
 
 
+def is_shown(material: bpy.types.Material) -> bool:
+    """Whether what a material shows, or one of its AOVs, comes from a skin's node."""
+    tree = blender_version.shader_tree(material)
+    if tree is None:
+        return False
+    ends = [*_outputs(tree), *(node for node in tree.nodes if node.bl_idname == "ShaderNodeOutputAOV")]
+    seen: set[bpy.types.Node] = set()
+    while ends:
+        node = ends.pop()
+        if node in seen:
+            continue
+        seen.add(node)
+        if node.bl_idname == "ShaderNodeGroup":
+            if is_skin_group(node.node_tree) or _skin_nodes_in(node.node_tree, set()):
+                return True
+        ends += [link.from_node for socket in node.inputs for link in socket.links if not link.is_muted]
+    return False
+
+
+def _outputs(tree: bpy.types.NodeTree) -> set[bpy.types.Node]:
+    """The outputs that the renderers take."""
+    return {o for o in (tree.get_output_node(t) for t in ("ALL", "CYCLES", "EEVEE")) if o is not None}
+
+
+def _connect_again(material: bpy.types.Material) -> None:
+    """Puts a node that nothing shows any more before the output, behind the shader that was connected to that."""
+    tree = blender_version.shader_tree(material)
+    node = next((node for node in skin_nodes(material) if node.id_data == tree), None)
+    if node is None:
+        return  # in a group of the artist
+    for output in _outputs(tree) or {tree.nodes.new("ShaderNodeOutputMaterial")}:
+        surface = output.inputs["Surface"]
+        if surface.is_linked:
+            tree.links.new(surface.links[0].from_socket, node.inputs["Surface"])
+        tree.links.new(node.outputs["Shader"], surface)
+
+
 def skin_input(node: bpy.types.Node, name: str) -> bpy.types.NodeSocket | None:
     """An input of a skin's node; None where its group is a library's of an earlier version."""
     return node.inputs.get(name)
@@ -160,6 +201,8 @@ def remove_from_material(material: bpy.types.Material) -> None:
         for socket in after:
             if before is not None:
                 tree.links.new(before, socket)
+            if (socket.node.location.x - WIDTH, socket.node.location.y) == tuple(node.location):
+                socket.node.location.x -= WIDTH  # where it was
         if SAMPLING_PROPERTY in node:
             blender_version.set_emission_sampling(material, node[SAMPLING_PROPERTY])
         tree.nodes.remove(node)
@@ -171,15 +214,12 @@ def insert(material: bpy.types.Material, group: bpy.types.NodeTree) -> None:
     tree = blender_version.ensure_shader_tree(material)
     if plain:
         _color_principled(tree, tuple(material.diffuse_color), material.roughness)
-    outputs = {o for o in (tree.get_output_node(t) for t in ("ALL", "CYCLES", "EEVEE")) if o is not None}
-    if not outputs:
-        outputs = {tree.nodes.new("ShaderNodeOutputMaterial")}
-    for output in outputs:
+    for output in _outputs(tree) or {tree.nodes.new("ShaderNodeOutputMaterial")}:
         surface = output.inputs["Surface"]
         node = tree.nodes.new("ShaderNodeGroup")
         node.node_tree = group
         node.location = (output.location.x, output.location.y)
-        output.location.x += 200
+        output.location.x += WIDTH
         if surface.is_linked:
             tree.links.new(surface.links[0].from_socket, node.inputs["Surface"])
         tree.links.new(node.outputs["Shader"], surface)

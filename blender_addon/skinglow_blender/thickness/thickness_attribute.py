@@ -18,8 +18,9 @@ from ..read.measured_size import (
     MEASURED_SAMPLES,
     MEASURED_SIZE,
     MEASURED_UNIT,
+    is_moved_as_a_whole,
+    is_reshaped,
     matrix_of,
-    mesh_scale,
     samples_of,
 )
 from ..session import SESSION
@@ -46,7 +47,11 @@ def is_measured(obj: bpy.types.Object, geometry: Geometry) -> bool:
     """Whether the stored thickness was measured on exactly this geometry, or is custom."""
     if any(name not in obj.data.attributes for name in (THICKNESS_ATTRIBUTE, KNOWN_ATTRIBUTE)):
         return False
-    return obj.data.get(MEASURED_GEOMETRY) in (GIVEN, geometry.digest())
+    stored = obj.data.get(MEASURED_GEOMETRY)
+    if stored != geometry.digest():
+        return stored == GIVEN
+    # In the world it is the same; what changed between object and mesh, as where a scale is applied, has to be known.
+    return not is_reshaped(obj.data) and measured_as(obj) is not None
 
 
 def is_from_measurement(mesh: bpy.types.Mesh) -> bool:
@@ -57,11 +62,11 @@ def is_from_measurement(mesh: bpy.types.Mesh) -> bool:
 def measured_as(obj: bpy.types.Object) -> bpy.types.Object | None:
     """The skin with whose modifiers its mesh was measured: itself, else another with the same mesh.
 
-    None: mesh or modifiers are not those that were measured, but for a scale of the whole. Pose, shape keys and the
-    settings of modifiers are not looked at: animation changes them.
+    None: mesh or modifiers are not those that were measured, but for moving, turning and scaling the whole. Pose, shape
+    keys and the settings of modifiers are not looked at: animation changes them.
     """
     stored = obj.data.get(MEASURED_MESH)
-    if stored is None or (mesh_scale(obj.data) or 1.0) != 1.0:
+    if stored is None or is_moved_as_a_whole(obj.data):
         return obj
     users = [obj, *sharing_skins(obj)]
     return next((user for user, now in zip(users, mesh_digests(users), strict=True) if stored in now), None)

@@ -9,11 +9,14 @@ from ..errors import SkinError
 from ..session import SESSION
 from .light_list import redraw_panels
 from .operators import may_act, selected_skins
+from .status_text import clear_status, show_status
 
 #: Seconds between two frames: enough for Blender to draw the progress.
 INTERVAL = 0.01
 #: What ends freezing with a message: the core's exceptions and those of files too.
 FAULTS = (SkinError, ValueError, OSError)
+#: Of the freezing that runs.
+_timers: list[bpy.types.Timer] = []
 
 
 class SKINGLOW_OT_freeze(bpy.types.Operator):  # noqa: N801  Blender's naming
@@ -67,55 +70,50 @@ class SKINGLOW_OT_freeze(bpy.types.Operator):  # noqa: N801  Blender's naming
             SESSION.freezing = self._start(context)
         except FAULTS as error:
             return self._failed(None, error)
-        self._timer = context.window_manager.event_timer_add(INTERVAL, window=context.window)
+        _timers.append(context.window_manager.event_timer_add(INTERVAL, window=context.window))
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         freezing = SESSION.freezing
+        if freezing is None:
+            return {"CANCELLED"}
         try:
             if event.type == "ESC" and event.value == "PRESS":
-                self._end(context)
+                _end()
                 freezing.cancel()
                 self.report({"INFO"}, "Freezing was canceled, nothing was changed")
                 return {"CANCELLED"}
             if event.type != "TIMER":
                 return {"RUNNING_MODAL"}
             more = freezing.step()
-            context.workspace.status_text_set(f"Freezing light: {freezing.done:.0%}      Esc: cancel")
+            show_status(context, f"Freezing light: {freezing.done:.0%}      Esc: cancel")
             redraw_panels()
             if more:
                 return {"RUNNING_MODAL"}
             frozen = freezing.finish()
         except FAULTS as error:
-            self._end(context)
+            _end()
             return self._failed(freezing, error)
         except BaseException:
-            self._end(context)
+            _end()
             freezing.cancel()
             raise
-        self._end(context)
+        _end()
         self._report(frozen)
         return {"FINISHED"}
 
-    def cancel(self, context: bpy.types.Context) -> None:
+    def cancel(self, _context: bpy.types.Context) -> None:
         """Called by Blender when a file is loaded or the window is closed."""
         stop_freezing()
-        self._end(context)
 
     def _start(self, context: bpy.types.Context) -> Freezing:
         scene = context.scene
         first = self.first if self.properties.is_property_set("first") else scene.frame_start
         last = self.last if self.properties.is_property_set("last") else scene.frame_end
+        self.first, self.last = first, last  # as Adjust Last Operation shows them
         skins = [obj for obj in selected_skins(context) if not frozen_state(obj)]
         return Freezing(skins, first, last, self.directory, scene)
-
-    def _end(self, context: bpy.types.Context) -> None:
-        SESSION.freezing = None
-        context.window_manager.event_timer_remove(self._timer)
-        if context.workspace is not None:
-            context.workspace.status_text_set(None)
-        redraw_panels()
 
     def _failed(self, freezing: Freezing | None, error: Exception) -> set[str]:
         if freezing is not None:
@@ -133,7 +131,15 @@ def stop_freezing() -> None:
     """Stops a running freezing, as when Blender quits or the add-on is disabled."""
     if SESSION.freezing is not None:
         SESSION.freezing.clear()
-        SESSION.freezing = None
+        _end()
+
+
+def _end() -> None:
+    SESSION.freezing = None
+    while _timers:
+        bpy.context.window_manager.event_timer_remove(_timers.pop())
+    clear_status()
+    redraw_panels()
 
 
 class SKINGLOW_OT_unfreeze(bpy.types.Operator):  # noqa: N801

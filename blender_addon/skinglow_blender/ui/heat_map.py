@@ -30,10 +30,14 @@ _batches: dict[str, tuple[tuple, Any]] = {}
 
 
 def shown_skins(context: bpy.types.Context) -> list[bpy.types.Object]:
-    """The skins that the heat map covers: those selected, and the active one."""
-    active = context.object
+    """The skins that the heat map covers in a view: those selected, and the active one; none without overlays."""
+    view, active = context.space_data, context.object
+    if not view.overlay.show_overlays:
+        return []
     chosen = [*context.selected_objects, *([active] if active is not None else [])]
-    return [o for o in dict.fromkeys(chosen) if o.type == "MESH" and o.skinglow.enabled and o.visible_get()]
+    skins = [o for o in dict.fromkeys(chosen) if o.type == "MESH" and o.skinglow.enabled]
+    # The second leaves out what is not in the view's local view or local collections.
+    return [o for o in skins if o.visible_get() and o.visible_in_viewport_get(view)]
 
 
 def limit_mm(skins: list[bpy.types.Object]) -> float:

@@ -2,6 +2,7 @@
 """The operators that measure thickness: in the background of a window, synchronously from scripts."""
 
 import bpy
+import numpy as np
 from bpy.props import CollectionProperty, EnumProperty, FloatProperty
 
 from ..commands import skin
@@ -19,12 +20,17 @@ from ..thickness.tile_attribute import ensure_tiles
 from ..tissue_presets import PRESETS
 from . import slot_choice
 from .light_list import redraw_panels
-from .operators import SKIN, may_act, selected_meshes, selected_skins
+from .operators import SKIN, check_kept, may_act, selected_meshes, selected_skins
+from .status_text import clear_status, show_status
 
 #: Seconds between two checks of the thread.
 INTERVAL = 0.1
 #: Settings that Make Skin Glow offers in Adjust Last Operation.
 CHOICES = ("mode", "weights", "preset", "unit_mm")
+#: What was measured last, by the digest of its geometry.
+_last_measured: dict[str, tuple[np.ndarray, np.ndarray]] = {}
+#: Of the measurement that runs.
+_timers: list[bpy.types.Timer] = []
 
 
 class _MeasuringOperator:
@@ -51,7 +57,7 @@ class _MeasuringOperator:
         try:
             self._names = {key_of(obj): obj.name for obj in self.targets(context)}
             geometries = self.to_measure(context)
-            thicknesses = {key: thickness_attribute.measure(geometry) for key, geometry in geometries.items()}
+            thicknesses = {key: _measured(geometry) for key, geometry in geometries.items()}
         except (SkinError, ValueError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -69,13 +75,15 @@ class _MeasuringOperator:
         except (SkinError, ValueError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        self._timer = context.window_manager.event_timer_add(INTERVAL, window=context.window)
+        _timers.append(context.window_manager.event_timer_add(INTERVAL, window=context.window))
         context.window_manager.modal_handler_add(self)
         _show_progress(context)
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         measuring = SESSION.measuring
+        if measuring is None:
+            return {"CANCELLED"}
         if event.type == "ESC" and event.value == "PRESS":
             measuring.canceled = True
             return {"RUNNING_MODAL"}
@@ -86,7 +94,7 @@ class _MeasuringOperator:
         # until they leave it.
         if measuring.running or (context.mode != "OBJECT" and not measuring.canceled):
             return {"PASS_THROUGH"}
-        self._end(context)
+        _end()
         if measuring.canceled:
             self.report({"INFO"}, "Measuring canceled, nothing was changed")
             return {"CANCELLED"}
@@ -97,22 +105,15 @@ class _MeasuringOperator:
             return {"CANCELLED"}
         return self._store(context, measuring.geometries, thicknesses)
 
-    def cancel(self, context: bpy.types.Context) -> None:
+    def cancel(self, _context: bpy.types.Context) -> None:
         """Called by Blender when a file is loaded or the window is closed."""
         stop_measuring()
-        self._end(context)
-
-    def _end(self, context: bpy.types.Context) -> None:
-        SESSION.measuring = None
-        context.window_manager.event_timer_remove(self._timer)
-        if context.workspace is not None:
-            context.workspace.status_text_set(None)
-        redraw_panels()
 
     def _store(self, context: bpy.types.Context, geometries: dict, thicknesses: dict) -> set[str]:
         try:
             objects = _objects(self._names)
             self.before_storing(context, list(objects.values()))
+            _remember(geometries, thicknesses)
             for key, values in thicknesses.items():
                 thickness_attribute.store_measured(objects[key], context.scene, geometries[key], *values)
             self.report({"INFO"}, self.finish(context, list(objects.values())))
@@ -127,6 +128,18 @@ class _MeasuringOperator:
             self.report({"ERROR"}, str(error))
         # Also after an error: some meshes may have changed, and Undo reverts that.
         return {"FINISHED"}
+
+
+def _measured(geometry: Geometry) -> tuple[np.ndarray, np.ndarray]:
+    """What `measure` returns; Adjust Last Operation undoes a measurement and asks for it again at each change."""
+    found = _last_measured.get(geometry.digest())
+    return found if found is not None else thickness_attribute.measure(geometry)
+
+
+def _remember(geometries: dict[str, Geometry], thicknesses: dict[str, tuple[np.ndarray, np.ndarray]]) -> None:
+    if thicknesses:
+        _last_measured.clear()
+        _last_measured.update({geometries[key].digest(): values for key, values in thicknesses.items()})
 
 
 def _objects(names: dict[str, str]) -> dict[str, bpy.types.Object]:
@@ -147,14 +160,23 @@ def _show_progress(context: bpy.types.Context) -> None:
         text = f"Measuring the thickness of {names}: {measuring.done:.0%}      Esc: cancel"
     else:
         text = f"The thickness of {names} is measured: return to Object Mode to apply it      Esc: cancel"
-    context.workspace.status_text_set(text)
+    show_status(context, text)
     redraw_panels()
 
 
 def stop_measuring() -> None:
-    """Stops a running measurement, as when Blender quits or the add-on is disabled."""
+    """Stops a running measurement, as when Blender quits or the add-on is disabled, which calls no operator."""
     if SESSION.measuring is not None:
         SESSION.measuring.cancel()
+        _end()
+
+
+def _end() -> None:
+    SESSION.measuring = None
+    while _timers:
+        bpy.context.window_manager.event_timer_remove(_timers.pop())
+    clear_status()
+    redraw_panels()
 
 
 def _may_measure(cls: type, context: bpy.types.Context, *, found: bool, what: str = SKIN) -> bool:
@@ -202,6 +224,7 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
 
     def to_measure(self, context: bpy.types.Context) -> dict[str, Geometry]:
         found = {}
+        check_kept(self.targets(context))
         for obj in self.targets(context):
             geometry = read_geometry(obj, context.scene)
             unit = as_typed(self._settings(obj).get("unit_mm", 0.0))
@@ -218,6 +241,7 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
     def finish(self, _context: bpy.types.Context, objects: list[bpy.types.Object]) -> str:
         states = [self._make(obj) for obj in objects]
         slot_choice.offer(self.slots, objects)
+        self._show_choices(objects)
         return "; ".join(f"{s.name}: {s.thickness_mm[0]:.2f} to {s.thickness_mm[1]:.2f} mm thick" for s in states)
 
     def _make(self, obj: bpy.types.Object) -> skin.SkinState:
@@ -228,6 +252,13 @@ class SKINGLOW_OT_make(_MeasuringOperator, bpy.types.Operator):  # noqa: N801  B
         if "weights" in settings and not is_asked and state.shape is not None and state.shape.reason is not None:
             state = skin.make_skin(obj, weights="OBJECT")
         return state
+
+    def _show_choices(self, objects: list[bpy.types.Object]) -> None:
+        """Has Adjust Last Operation show what the skins have in common, as by the preferences, rather than defaults."""
+        for name in CHOICES:
+            values = {getattr(obj.skinglow, name) for obj in objects}
+            if len(values) == 1 and values != {"CUSTOM"}:
+                setattr(self, name, values.pop())
 
     def _settings(self, obj: bpy.types.Object) -> dict[str, object]:
         """What was chosen in Adjust Last Operation; for a new skin, what the preferences say of the rest."""
@@ -292,5 +323,6 @@ def register() -> None:
 def unregister() -> None:
     """Removes the operators, also when Blender quits: no thread may run Python then."""
     stop_measuring()
+    _last_measured.clear()
     for each in reversed(CLASSES):
         bpy.utils.unregister_class(each)

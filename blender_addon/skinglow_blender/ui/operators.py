@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators of the panel; each supports undo and reports errors as messages."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import bpy
 from bpy.props import StringProperty
@@ -70,6 +70,16 @@ class SelectedSkinsOperator(_SkinOperator):
         return may_act(cls, context, found=bool(selected_skins(context)))
 
 
+def check_kept(objects: Iterable[bpy.types.Object]) -> None:
+    """Raises SkinError for an object of a library: Blender reads it again with the file, without what was set."""
+    for obj in objects:
+        if obj.library is not None:
+            raise SkinError(
+                f"'{obj.name}' belongs to {obj.library.filepath}, and changes here would be lost: change it there, or "
+                "override it first (Object > Library Override > Make)"
+            )
+
+
 class _EachSelectedSkin(SelectedSkinsOperator):
     """Does the same to each selected skin."""
 
@@ -83,6 +93,7 @@ class _EachSelectedSkin(SelectedSkinsOperator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         def act_on_all() -> str:
             skins = selected_skins(context)
+            check_kept(skins)
             for obj in skins:
                 self.act(obj)
             return f"{self.done} {', '.join(obj.name for obj in skins)}"

@@ -5,8 +5,10 @@ import bpy
 from bl_operators.presets import AddPresetBase
 from bpy.props import EnumProperty
 
+from ..errors import SkinError
 from ..tissue_presets import PRESETS, TISSUE_SLIDERS
 from .locations import is_skin
+from .operators import check_kept
 
 
 class SKINGLOW_OT_apply_preset(bpy.types.Operator):  # noqa: N801  Blender's naming
@@ -24,6 +26,11 @@ class SKINGLOW_OT_apply_preset(bpy.types.Operator):  # noqa: N801  Blender's nam
         return is_skin(context.object)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            check_kept([context.object])
+        except SkinError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         context.object.skinglow.preset = self.preset
         return {"FINISHED"}
 

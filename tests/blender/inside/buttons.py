@@ -10,7 +10,7 @@ from skinglow_blender.ui import manual, menus
 from skinglow_blender.ui.wrapped_text import wrapped
 
 from inside.bad_input import refused
-from inside.scenes import add_light, assert_fresh, camera_above, depsgraph, patch
+from inside.scenes import add_light, assert_fresh, black_material, camera_above, depsgraph, patch
 
 sb.register()
 
@@ -44,6 +44,25 @@ def check_make_update_reset_remove(_work):
     assert obj.data.attributes["skinglow_thickness"].data[0].value < 11.0
     assert bpy.ops.skinglow.remove() == {"FINISHED"}
     assert not obj.skinglow.enabled and not bpy.data.node_groups
+
+
+def check_nodes_are_where_they_were(_work):
+    """However often skin glow is made and removed; but for an output that the artist moved."""
+    obj = patch(material=black_material())
+    obj.select_set(True)
+    bpy.context.view_layer.objects.active = obj
+    tree = obj.material_slots[0].material.node_tree
+    output = tree.get_output_node("ALL")
+    output.location = (300.25, -100.0)
+    for _time in range(3):
+        sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
+        assert output.location.x > 300.25
+        assert bpy.ops.skinglow.remove() == {"FINISHED"}
+        assert tuple(output.location) == (300.25, -100.0)
+    sb.make_skin(obj, thickness=[1.0] * 4, mode="paper")
+    output.location = (800.0, 0.0)
+    sb.remove_skin(obj)
+    assert tuple(output.location) == (800.0, 0.0)
 
 
 def check_undo_of_each(_work):

@@ -6,7 +6,9 @@ import skinglow_blender as sb
 from skinglow_blender import preferences
 from skinglow_blender.live import file_upgrade
 from skinglow_blender.show.lut_image import GROUP_PROPERTY
+from skinglow_blender.thickness import thickness_attribute
 from skinglow_blender.tissue_presets import PRESETS, TISSUE_SLIDERS
+from skinglow_blender.ui import measuring_operators
 
 from inside.bad_input import refused
 from inside.scenes import add_light, depsgraph, patch
@@ -51,6 +53,35 @@ def check_unit_of_make_is_that_of_the_thickness(_work):
     values = np.array([each.value for each in obj.data.attributes["skinglow_thickness"].data])
     assert 10.0 < values.max() < 20.5, values.max()
     assert not sb.health(obj)
+
+
+def check_adjusting_make_shows_what_is_and_measures_once(_work):
+    """Adjust Last Operation undoes and does again at each change of a slider."""
+    ball()
+    bpy.ops.ed.undo_push(message="before")
+    calls, measure = [], thickness_attribute.measure
+    of_new_skins = measuring_operators.of_new_skins
+    measuring_operators.of_new_skins = lambda: {"mode": "PAPER", "weights": "OBJECT"}
+    thickness_attribute.measure = lambda *each: calls.append(each) or measure(*each)
+    try:
+        bpy.ops.skinglow.make("EXEC_DEFAULT", True)
+        last = bpy.context.window_manager.operators[-1]
+        assert last.bl_idname == "SKINGLOW_OT_make"
+        assert (last.mode, last.weights, last.preset, last.unit_mm) == ("PAPER", "OBJECT", "LIGHT", 10.0)
+        stored = thickness_attribute.read(bpy.context.object.data)[0].copy()
+        for preset in ("DARK", "EAR"):
+            bpy.ops.ed.undo()
+            assert not bpy.context.object.skinglow.enabled
+            bpy.ops.skinglow.make("EXEC_DEFAULT", True, mode="PHYSICAL", preset=preset)
+            settings = bpy.context.object.skinglow
+            assert (settings.mode, settings.weights, settings.preset) == ("PHYSICAL", "OBJECT", preset)
+        np.testing.assert_array_equal(thickness_attribute.read(bpy.context.object.data)[0], stored)
+        assert len(calls) == 1
+        bpy.context.object.skinglow.unit_mm = 20.0
+        bpy.ops.skinglow.make("EXEC_DEFAULT", True)
+        assert len(calls) == 2
+    finally:
+        measuring_operators.of_new_skins, thickness_attribute.measure = of_new_skins, measure
 
 
 def check_names_that_scripts_may_use(_work):

@@ -78,6 +78,20 @@ def check_refused(work):
     assert again.folder.name == "Patch_2"
 
 
+def check_names_that_folders_cannot_tell_apart(work):
+    """Frozen together, each skin has a folder of its own."""
+    work = work / "alike"
+    obj, _key = small_scene(work)
+    other = patch("patch", location=(3.0, 0.0, 0.0), material=black_material("Other"))
+    sb.make_skin(other, thickness=[3.0] * 4, mode="paper")
+    before = [sb.lut(each, depsgraph()) for each in (obj, other)]
+    frozen = sb.freeze()
+    assert sorted(each.folder.name for each in frozen) in (["Patch", "patch_2"], ["Patch_2", "patch"]), frozen
+    assert told(obj) == [] and told(other) == []
+    for each, lut in zip((obj, other), before, strict=True):
+        np.testing.assert_allclose(sb.lut(each, depsgraph()), lut, rtol=1e-3)
+
+
 def check_view_layers_that_differ(work):
     work = work / "view_layers_that_differ"
     obj, _key = small_scene(work)

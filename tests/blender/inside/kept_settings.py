@@ -145,6 +145,30 @@ def check_library_overrides_keep_settings(work):
     assert all(settings[name].is_overridable for name in (*SETTING_NAMES, "enabled", "group", "row"))
 
 
+def check_buttons_refuse_what_is_lost(work):
+    """Blender lets scripts change a library's objects, and forgets that when the file is opened again."""
+    obj = patch("Head")
+    sb.make_skin(obj, thickness=THIN, mode="paper", strength=3.0)
+    bpy.ops.wm.save_as_mainfile(filepath=str(work / "heads.blend"))
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(str(work / "heads.blend"), link=True) as (_source, target):
+        target.objects = ["Head"]
+    linked = link(target.objects[0])
+    depsgraph()
+    linked.select_set(True)
+    bpy.context.view_layer.objects.active = linked
+    before = values(linked)
+    for name in ("make", "reset", "remove", "apply_preset"):
+        refused(RuntimeError, "changes here would be lost", getattr(bpy.ops.skinglow, name))
+        assert values(linked) == before and linked.skinglow.enabled
+    # An override keeps that it was reset, or is no skin.
+    override = linked.override_create(remap_local_usages=True)
+    depsgraph()
+    bpy.context.view_layer.objects.active = override
+    override.select_set(True)
+    assert bpy.ops.skinglow.reset() == {"FINISHED"} and override.skinglow.strength == 1.0
+
+
 def overridden(work, mesh=False):
     """An override of an object of a library; its mesh may be overridden too."""
     patch("Plain", material=bpy.data.materials.new("Surface"))

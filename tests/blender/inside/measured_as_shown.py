@@ -209,6 +209,44 @@ def check_applied_scale(_work):
     assert obj.data["skinglow_measured"] != before and abs(shown_thickness(obj) - 6.0) < 1e-3
 
 
+def check_applied_uneven_scale_and_location(_work):
+    """What is shown is as before, to the eye and in the thickness; a mirrored one is told, and Repair mends that."""
+
+    def thickest(obj):
+        depsgraph()
+        return thickness_attribute.read(obj.data)[0].max() * obj[ROW_PROPERTY][0]
+
+    for scale, rotation, location in (
+        ((1.0, 2.0, 1.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
+        ((1.0, 1.0, 3.0), (0.3, 0.2, 0.1), (1.0, 2.0, 3.0)),
+        ((0.5, 2.0, 1.0), (0.0, 0.0, 0.0), (1.0, 2.0, 3.0)),
+        ((1.0, 1.0, 1.0), (0.0, 0.0, 0.0), (1.0, 2.0, 3.0)),
+        ((2.0, -1.0, 1.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
+    ):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        bpy.ops.mesh.primitive_uv_sphere_add(segments=8, ring_count=8)
+        obj = bpy.context.object
+        obj.skinglow.unit_mm = 10.0
+        obj.scale, obj.rotation_euler, obj.location = scale, rotation, location
+        depsgraph()
+        sb.make_skin(obj, mode="paper")
+        before = thickest(obj)
+        bpy.ops.object.transform_apply(location=True, rotation=True, scale=True)
+        depsgraph()
+        if min(scale) < 0.0:
+            assert bpy.ops.skinglow.repair() == {"FINISHED"}
+        assert sb.health(obj) == [], (scale, sb.health(obj))
+        near = 0.02 if min(scale) < 0.0 else 1e-5
+        np.testing.assert_allclose(thickest(obj), before, rtol=near)
+        obj.scale = (2.0, 2.0, 2.0)
+        depsgraph()
+        assert sb.health(obj) == []
+        np.testing.assert_allclose(thickest(obj), 2.0 * before, rtol=near)
+        obj.scale = (1.0, 1.5, 1.0)
+        depsgraph()
+        assert "scaled unevenly" in sb.health(obj)[0].what
+
+
 def check_other_edits_scale_nothing(_work):
     obj = plate()
     measured(obj)

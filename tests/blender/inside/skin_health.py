@@ -6,7 +6,7 @@ import skinglow_blender as sb
 from mathutils import Matrix
 from skinglow_blender.read.measured_geometry import MOVING_NOTHING
 from skinglow_blender.show.lut_image import images_of
-from skinglow_blender.show.skin_material import remove_from_material
+from skinglow_blender.show.skin_material import remove_from_material, skin_node
 from skinglow_blender.thickness.thickness_attribute import KNOWN_ATTRIBUTE
 
 from inside.bad_input import refused
@@ -177,6 +177,44 @@ def check_uneven_scale_is_told(_work):
     assert sb.health(obj) == []
     obj.scale = (2, 2, 3)
     depsgraph()
+    assert sb.health(obj) == []
+
+
+def check_a_node_that_nothing_shows_is_told(_work):
+    """Another shader on the output, another output, none; as an AOV alone it is shown; muted is a hint."""
+    obj = healthy_skin()
+    material = obj.material_slots[0].material
+    tree, node = material.node_tree, skin_node(material)
+    output = tree.get_output_node("ALL")
+    new = tree.nodes.new("ShaderNodeBsdfDiffuse")
+
+    def told_and_repaired():
+        depsgraph()
+        assert "'Skin' is not connected to its output" in str(sb.health(obj)[0]), sb.health(obj)
+        assert "not connected" in panel(obj)[0]
+        assert bpy.ops.skinglow.repair() == {"FINISHED"}
+        assert sb.health(obj) == [] and skin_node(material) == node
+        return tree.get_output_node("ALL").inputs["Surface"].links[0].from_node
+
+    tree.links.new(new.outputs[0], output.inputs["Surface"])
+    assert told_and_repaired() == node and node.inputs["Surface"].links[0].from_node == new
+    other = tree.nodes.new("ShaderNodeOutputMaterial")
+    other.is_active_output = True
+    assert told_and_repaired() == node
+    for each in (output, other):
+        tree.nodes.remove(each)
+    assert told_and_repaired() == node
+    add = tree.nodes.new("ShaderNodeAddShader")
+    tree.links.new(node.outputs["Shader"], add.inputs[0])
+    tree.links.new(add.outputs[0], tree.get_output_node("ALL").inputs["Surface"])
+    assert sb.health(obj) == []
+    node.mute = True
+    (hint,) = sb.health(obj)
+    assert "is muted" in hint.what and hint.is_hint
+    node.mute = False
+    tree.links.new(new.outputs[0], tree.get_output_node("ALL").inputs["Surface"])
+    assert sb.health(obj)
+    tree.links.new(node.outputs["Light"], tree.nodes.new("ShaderNodeOutputAOV").inputs["Color"])
     assert sb.health(obj) == []
 
 

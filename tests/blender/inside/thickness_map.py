@@ -136,6 +136,18 @@ def check_buttons_and_undo(work):
     assert (thickness_of(bpy.data.objects["Grid"])[0] == 2.0).all()
 
 
+def check_names_that_files_cannot_tell_apart(work):
+    """Each skin has an image of its own."""
+    for name, value in (("Ear L", 1.0), ("ear_L", 2.0)):
+        obj = grid(work / "alike", cuts=2, name=name)
+        sb.make_skin(obj, thickness=[value] * len(obj.data.vertices))
+    files = {}
+    for name in ("Ear L", "ear_L", "Ear L"):
+        files[name] = sb.bake_thickness(bpy.data.objects[name], size=16).file
+    assert {path.name for path in files.values()} == {"Ear_L_thickness.exr", "ear_L_2_thickness.exr"}, files
+    assert read_exr(files["Ear L"])[8, 8, 0] == 1.0 and read_exr(files["ear_L"])[8, 8, 0] == 2.0
+
+
 def check_refused(work):
     (work / "refused").mkdir()
     obj = patch(material=black_material())
@@ -155,5 +167,10 @@ def check_refused(work):
     image.colorspace_settings.name = "sRGB"
     refused(sb.SkinError, "set its Color Space to Non-Color", sb.thickness_from_image, obj, image)
     image.colorspace_settings.name = "Non-Color"
+    tiled = bpy.data.images.new("Tiled", 8, 8, tiled=True)
+    tiled.colorspace_settings.name = "Non-Color"
+    refused(
+        sb.SkinError, "'Tiled' has UDIM tiles, of which only the first is read", sb.thickness_from_image, obj, tiled
+    )
     sb.thickness_from_image(obj, image, white_mm=5.0)
     assert not list((work / "refused").glob("*thickness*"))

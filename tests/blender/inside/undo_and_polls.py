@@ -81,6 +81,32 @@ def check_make(_work):
     do_undo_redo(bpy.ops.skinglow.make, before, after, mode="PAPER")
 
 
+def check_redo_of_make_in_each_lighting(_work):
+    """It shows what it did, follows the light, and leaves a file in which others can be made."""
+    for weights in ("OBJECT", "SURFACE", "SHAPE"):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        add_light("Key", location=(0.0, 0.0, 2.0))
+        ball().skinglow.unit_mm = 10.0
+        bpy.ops.ed.undo_push(message="before")
+        assert bpy.ops.skinglow.make("EXEC_DEFAULT", True, weights=weights) == {"FINISHED"}
+        shown = sb.lut(the_ball(), depsgraph())
+        assert shown.max() > 0.0
+        bpy.ops.ed.undo()
+        depsgraph()
+        bpy.ops.ed.redo()
+        depsgraph()
+        sb.update(depsgraph())
+        assert sb.health(the_ball()) == [] and not SESSION.faults, weights
+        np.testing.assert_allclose(sb.lut(the_ball(), depsgraph()), shown, rtol=1e-6)
+        bpy.data.objects["Key"].data.energy *= 2.0
+        np.testing.assert_allclose(sb.lut(the_ball(), depsgraph()), 2.0 * shown, rtol=1e-6)
+        bpy.data.objects.remove(the_ball())
+        depsgraph()
+        ball().skinglow.unit_mm = 10.0
+        assert bpy.ops.skinglow.make(weights=weights) == {"FINISHED"}
+        np.testing.assert_allclose(sb.lut(the_ball(), depsgraph()), 2.0 * shown, rtol=1e-6)
+
+
 def check_remove(_work):
     add_light("Key")
     skin_ball()
