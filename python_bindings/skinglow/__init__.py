@@ -69,6 +69,7 @@ from skinglow._core import (
 from skinglow._for_hosts import (
     diffuse_radiance,
     irradiance_difference,
+    is_mirrored,
     light_rotation,
     luminance,
     stratified_indices,
@@ -166,6 +167,7 @@ __all__ = [
     # For hosts
     "diffuse_radiance",
     "irradiance_difference",
+    "is_mirrored",
     "light_rotation",
     "luminance",
     "stratified_indices",

@@ -62,16 +62,26 @@ def uniform_scale(before: ArrayLike, after: ArrayLike) -> float | None:
     before, after  (n, 3), else ValueError
     Returns None if no one factor explains the distances between successive points, or if there are none.
     """
-    both = _of_shape("before", before, "(n, 3)"), _of_shape("after", after, "(n, 3)")
-    if len(both[0]) != len(both[1]):
-        raise ValueError(f"after is of shape {both[1].shape}; allowed: that of before, {both[0].shape}")
-    then, now = (np.linalg.norm(np.diff(points, axis=0), axis=1) for points in both)
+    then, now = (np.linalg.norm(np.diff(points, axis=0), axis=1) for points in _both(before, after))
     apart = then > 0.0
     if not apart.any():
         return None
     factors = now[apart] / then[apart]
     largest = float(factors.max())
     return largest if largest > 0.0 and largest - factors.min() <= SAME_FACTOR * largest else None
+
+
+def is_mirrored(before: ArrayLike, after: ArrayLike) -> bool:
+    """Whether the linear map that takes points to where they are now, by least squares, mirrors them.
+
+    before, after  (n, 3), else ValueError
+    False of points in one plane, or fewer than four: a rotation takes them there, too.
+    """
+    then, now = _both(before, after)
+    if len(then) < 4:
+        return False
+    linear = np.linalg.lstsq(then - then.mean(axis=0), now - now.mean(axis=0), rcond=None)[0]
+    return bool(np.linalg.det(linear) < -SAME_FACTOR * np.linalg.norm(linear) ** 3)
 
 
 def light_rotation(light: "Light") -> NDArray[np.float64]:
@@ -120,6 +130,14 @@ def _corner(name: str, given: ArrayLike) -> NDArray[np.float64]:
     if corner.shape != (3,):
         raise ValueError(f"{name} is of shape {corner.shape}; allowed: shape (3,)")
     return corner
+
+
+def _both(before: ArrayLike, after: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """As many points, (n, 3) each, else ValueError."""
+    both = _of_shape("before", before, "(n, 3)"), _of_shape("after", after, "(n, 3)")
+    if len(both[0]) != len(both[1]):
+        raise ValueError(f"after is of shape {both[1].shape}; allowed: that of before, {both[0].shape}")
+    return both
 
 
 def _of_shape(name: str, given: ArrayLike, shape: str) -> NDArray[np.float64]:

@@ -145,6 +145,8 @@ REAL: dict[str, Call] = {
     "visible_entries(table)": (sg.visible_entries, TRIANGLE),
     "irradiance_difference(box_min)": (lambda a: sg.irradiance_difference(LIGHTING, LIGHTING, a, POINT), POINT),
     "irradiance_difference(box_max)": (lambda a: sg.irradiance_difference(LIGHTING, LIGHTING, POINT, a), POINT),
+    "is_mirrored(before)": (lambda a: sg.is_mirrored(a, TRIANGLE), TRIANGLE),
+    "is_mirrored(after)": (lambda a: sg.is_mirrored(TRIANGLE, a), TRIANGLE),
     "uniform_scale(before)": (lambda a: sg.uniform_scale(a, TRIANGLE), TRIANGLE),
     "uniform_scale(after)": (lambda a: sg.uniform_scale(TRIANGLE, a), TRIANGLE),
     "Occluders(meshes)": (lambda a: sg.Occluders([(a, CORNERS)]), TRIANGLE),

@@ -48,6 +48,17 @@ def test_uniform_scale_of_turned_and_moved_points(factor: float, seed: int) -> N
     assert sg.uniform_scale(points, turned) is None
 
 
+@given(st.floats(1e-3, 1e3), st.integers(0, 1000))
+def test_what_is_mirrored_and_what_is_turned(factor: float, seed: int) -> None:
+    random = np.random.default_rng(seed)
+    points = random.normal(size=(8, 3))
+    turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
+    after = factor * points @ turn.T + random.normal(size=3)
+    assert sg.is_mirrored(points, after) == (np.linalg.det(turn) < 0.0)
+    assert not sg.is_mirrored(points * (1.0, 1.0, 0.0), after * (1.0, 1.0, 0.0))
+    assert not sg.is_mirrored(points[:3], -points[:3])
+
+
 def test_uniform_scale_of_what_has_none() -> None:
     assert sg.uniform_scale(np.zeros((4, 3)), np.ones((4, 3))) is None
     assert sg.uniform_scale(np.eye(3), np.zeros((3, 3))) is None

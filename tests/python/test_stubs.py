@@ -107,6 +107,7 @@ def test_package_exports_every_name_once() -> None:
         "diffuse_radiance",
         "gray_png",
         "irradiance_difference",
+        "is_mirrored",
         "light_rotation",
         "luminance",
         "stratified_indices",

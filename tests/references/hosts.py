@@ -61,6 +61,15 @@ def scales() -> float:
     return worst
 
 
+@held_against("the sign of a determinant", "is_mirrored", domain="100 turned and mirrored clouds", limit=0.0)
+def mirrors() -> float:
+    rng, wrong = generator(55), 0
+    for _ in range(100):
+        points, turn = rng.normal(size=(8, 3)), np.linalg.qr(rng.normal(size=(3, 3)))[0]
+        wrong += sg.is_mirrored(points, points @ turn.T) != (np.linalg.det(turn) < 0.0)
+    return float(wrong)
+
+
 @held_against("two powers of one light", "irradiance_difference", domain="20 lights about a box", limit=1e-12)
 def differences() -> float:
     rng, worst, box = generator(54), 0.0, ((-1, -1, -1), (1, 1, 1))

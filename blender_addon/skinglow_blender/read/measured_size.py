@@ -94,9 +94,7 @@ def is_moved_as_a_whole(mesh: bpy.types.Mesh) -> bool:
     scale = mesh_scale(mesh)
     if then is None or now == then or scale is None:
         return False
-    middle = np.mean(then, axis=0), np.mean(now, axis=0)
-    linear = np.linalg.lstsq(np.array(then) - middle[0], np.array(now) - middle[1], rcond=None)[0]
-    return bool(scale != 1.0 or np.linalg.det(linear) >= 0.0)
+    return scale != 1.0 or not core().is_mirrored(then, now)
 
 
 def _samples_then_and_now(mesh: bpy.types.Mesh) -> tuple[list | None, list]:
