@@ -44,8 +44,7 @@ class Occluders:
     def __init__(self, meshes: Iterable[tuple[ArrayLike, ArrayLike]], origin: ArrayLike | None = None) -> None:
         if not isinstance(meshes, Iterable):
             raise ValueError(f"meshes is {meshes!r}; allowed: pairs (vertices, triangles)")
-        self._rays = load_rays()
-        self._scene: _rays.Occluders = self._rays.Occluders(meshes, origin)
+        self._scene: _rays.Occluders = load_rays().Occluders(meshes, origin)
 
     def __len__(self) -> int:
         return len(self._scene)
