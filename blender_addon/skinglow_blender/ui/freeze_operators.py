@@ -9,7 +9,7 @@ from ..errors import SkinError
 from ..session import SESSION
 from .light_list import redraw_panels
 from .operators import may_act, selected_skins
-from .status_text import clear_status, show_status
+from .status_text import end_progress, show_status
 
 #: Seconds between two frames: enough for Blender to draw the progress.
 INTERVAL = 0.01
@@ -136,10 +136,7 @@ def stop_freezing() -> None:
 
 def _end() -> None:
     SESSION.freezing = None
-    while _timers:
-        bpy.context.window_manager.event_timer_remove(_timers.pop())
-    clear_status()
-    redraw_panels()
+    end_progress(_timers)
 
 
 class SKINGLOW_OT_unfreeze(bpy.types.Operator):  # noqa: N801

@@ -21,7 +21,7 @@ from ..tissue_presets import PRESETS
 from . import slot_choice
 from .light_list import redraw_panels
 from .operators import SKIN, check_kept, may_act, selected_meshes, selected_skins
-from .status_text import clear_status, show_status
+from .status_text import end_progress, show_status
 
 #: Seconds between two checks of the thread.
 INTERVAL = 0.1
@@ -173,10 +173,7 @@ def stop_measuring() -> None:
 
 def _end() -> None:
     SESSION.measuring = None
-    while _timers:
-        bpy.context.window_manager.event_timer_remove(_timers.pop())
-    clear_status()
-    redraw_panels()
+    end_progress(_timers)
 
 
 def _may_measure(cls: type, context: bpy.types.Context, *, found: bool, what: str = SKIN) -> bool:

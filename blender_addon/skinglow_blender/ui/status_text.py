@@ -3,6 +3,8 @@
 
 import bpy
 
+from .light_list import redraw_panels
+
 #: Names of the workspaces that show it.
 _shown_in: set[str] = set()
 
@@ -18,10 +20,13 @@ def show_status(context: bpy.types.Context, text: str) -> None:
     context.workspace.status_text_set(text)
 
 
-def clear_status() -> None:
-    """Gives the status bar back to Blender."""
+def end_progress(timers: list[bpy.types.Timer]) -> None:
+    """Gives the status bar back to Blender, and ends the timers of what ran; the list is empty then."""
+    while timers:
+        bpy.context.window_manager.event_timer_remove(timers.pop())
     for name in list(_shown_in):
         _clear(name)
+    redraw_panels()
 
 
 def _clear(name: str) -> None:
